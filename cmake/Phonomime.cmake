@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What every target shares, and the two functions with which each folder declares itself.
+
+set_property(GLOBAL PROPERTY GLOBAL_DEPENDS_NO_CYCLES ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug or RelWithDebInfo" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+find_program(CCACHE ccache)
+if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+find_package(Threads REQUIRED)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# The same input gives the same bytes on every machine: no fused multiply-add behind the source's
+# back, and no thread count inside Eigen.
+add_library(phonomime_options INTERFACE)
+target_include_directories(phonomime_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(phonomime_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  -Wno-sign-conversion -Wnon-virtual-dtor -ffp-contract=off)
+target_compile_definitions(phonomime_options INTERFACE EIGEN_DONT_PARALLELIZE)
+if(PHONOMIME_WERROR)
+  target_compile_options(phonomime_options INTERFACE -Werror)
+endif()
+if(PHONOMIME_SANITIZE)
+  target_compile_options(phonomime_options INTERFACE -fsanitize=${PHONOMIME_SANITIZE}
+    -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(phonomime_options INTERFACE -fsanitize=${PHONOMIME_SANITIZE})
+endif()
+
+# phonomime_library(NAME SOURCES a.cpp ... [LINKS lib ...]): the static library of one folder.
+function(phonomime_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC phonomime_options Eigen3::Eigen ${ARG_LINKS})
+endfunction()
+
+# phonomime_test(NAME SOURCES a_test.cpp ... [LINKS lib ...] [LABELS l ...]): one GoogleTest program.
+# ctest runs it whole; a test that needs ../shared asks tests/support for it and skips itself.
+function(phonomime_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE phonomime_options phonomime_test_support GTest::gtest_main
+    ${ARG_LINKS})
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 900)
+endfunction()

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/imported_sentence.h"
+#include "db/types/layout.h"
+#include "db/types/motion_table.h"
+#include "db/types/progress.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace phonomime {
+
+enum class OpenMode {
+  read_only,  // also from read-only media (opened immutable there)
+  read_write  // an existing database or, where the file does not exist or is empty, a new one
+};
+
+// One speaker of a database.
+struct SpeakerRecord {
+  std::string name;
+  Eigen::VectorXd reference_pose;  // #channels, mm in the layout's axes or weights
+};
+
+// One corpus that went into a database.
+struct CorpusRecord {
+  std::string name;
+  std::string phoneme_set;
+  bool synthetic = false;
+  std::string imported_at;  // UTC, ISO 8601
+  std::int64_t sentences = 0;
+  std::string report_json;  // the import report, as JSON
+};
+
+// What `info` tells.
+struct DatabaseInfo {
+  std::filesystem::path path;
+  int schema_version = 0;
+  double rate_hz = 0.0;
+  Layout layout;
+  PcaModel pca;
+  std::vector<CorpusRecord> corpora;
+  std::vector<std::string> speakers;
+  std::vector<std::string> emotions;
+  std::int64_t sentences = 0, frames = 0, nodes = 0, pruned = 0, suspect = 0, with_gaps = 0;
+  struct Count {
+    std::string name;
+    std::int64_t count = 0;
+  };
+  std::vector<Count> nodes_per_phoneme, nodes_per_emotion;
+  std::int64_t triphones = 0;  // different ones
+};
+
+// Which nodes `nodes` lists; empty members do not filter.
+struct NodeFilter {
+  std::string phoneme, emotion, speaker, sentence;
+  std::string previous_phoneme, next_phoneme;  // triphone context
+  std::optional<bool> suspect, pruned, has_gap;
+};
+
+struct NodeRecord {
+  std::string key;
+  std::string phoneme, viseme, emotion, speaker, sentence, previous_phoneme, next_phoneme;
+  double start_s = 0.0, end_s = 0.0;  // in its sentence
+  std::int32_t frame_count = 0;
+  bool pruned = false, has_gap = false;
+  std::string pruned_reason;
+  std::vector<std::string> suspect;
+};
+
+class ImportTransaction;
+
+// The SQLite motion database (DESIGN 3). Movable, one thread at a time.
+class MotionDatabase {
+public:
+  // Throws InputError (not a Phonomime database, of a future version, damaged) and IoError.
+  static MotionDatabase open(const std::filesystem::path& path, OpenMode mode);
+  MotionDatabase(MotionDatabase&&) noexcept;
+  MotionDatabase& operator=(MotionDatabase&&) noexcept;
+  ~MotionDatabase();
+
+  bool empty() const;  // no corpus in it yet
+  DatabaseInfo info() const;
+  std::vector<NodeRecord> list_nodes(const NodeFilter& filter) const;  // in order of key
+  std::vector<std::string> speakers() const;
+
+  // Everything a search needs of one speaker; `speaker` may be empty where there is only one.
+  // Pruned nodes and nodes with gaps are left out (MotionTable::unavailable) and links across them
+  // are gone. Throws InputError (no such speaker, several and none named: lists them).
+  MotionTable load_motion_table(const std::string& speaker) const;
+
+  // One sentence's stored channels (#frames by #channels) and head poses.
+  FrameMatrix load_channels(const SentenceInfo& sentence) const;
+  std::vector<HeadPose> load_head(const SentenceInfo& sentence) const;
+
+  // Starts the one transaction in which a corpus goes in (read_write only). The layout and the rate
+  // must be the database's own where it holds a corpus already: InputError.
+  ImportTransaction begin_import(const Layout& layout, double rate_hz);
+
+private:
+  friend class ImportTransaction;
+  struct Impl;
+  explicit MotionDatabase(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+// Rolled back unless committed. Everything in it becomes visible at once or never.
+class ImportTransaction {
+public:
+  ImportTransaction(ImportTransaction&&) noexcept;
+  ~ImportTransaction();
+
+  // The speaker's reference pose where an earlier corpus has set it.
+  std::optional<Eigen::VectorXd> reference_pose(const std::string& speaker) const;
+  void set_reference_pose(const std::string& speaker, const Eigen::VectorXd& pose);
+
+  // A phoneme of the corpus' set. Throws InputError where the database knows it with another viseme
+  // or visibility.
+  void add_phonemes(const std::vector<Phoneme>& phonemes);
+
+  bool has_sentence(const std::string& speaker, const std::string& emotion,
+                    const std::string& id) const;
+
+  // Throws InputError for a repeated (speaker, emotion, id).
+  void add_sentence(const ImportedSentence& sentence);
+
+  // Channels of every sentence in the database (#frames by #channels) with its frame_has_gap, those
+  // of earlier corpora too, in order of (speaker, emotion, id): what the PCA is fitted to.
+  void for_each_sentence(const std::function<void(const FrameMatrix& channels,
+                                                  const std::vector<std::uint8_t>& frame_has_gap)>&
+                             visit) const;
+
+  // Stores the model and, for every sentence, its coefficients (float), computed in blocks.
+  void set_pca(const PcaModel& pca, const Progress& progress);
+
+  // Marks maps and models stale, records the corpus, commits.
+  void commit(const CorpusRecord& corpus);
+
+private:
+  friend class MotionDatabase;
+  struct Impl;
+  explicit ImportTransaction(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace phonomime
