@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+import { AnimationMixer, Box3, DoubleSide, LoopOnce, Matrix4, MeshPhysicalMaterial, Vector3 } from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { bytesFromBase64 } from '../bytes.js';
+import { DataError } from '../data.js';
+import { completeNormals } from './normals.js';
+
+const mm_per_m = 1000;
+const head_name = 'head';
+
+function parseGlb(bytes) {
+  return new Promise((resolve, reject) => new GLTFLoader().parse(bytes.buffer, '', resolve, reject));
+}
+
+async function readGlb(base64) {
+  if (typeof base64 !== 'string' || base64 === '') throw new DataError('This page holds no face ("glb" is empty).');
+  try {
+    return await parseGlb(bytesFromBase64(base64));
+  } catch (cause) {
+    throw new DataError(`The face in this page cannot be read (${cause?.message ?? cause}).`, { cause });
+  }
+}
+
+/** Skin for a file that names no material. */
+function defaultSkin() {
+  return new MeshPhysicalMaterial({
+    name: 'default skin',
+    color: 0xc8937a,
+    roughness: 0.58,
+    sheen: 0.35,
+    sheenRoughness: 0.55,
+    sheenColor: 0xe8a58c,
+    side: DoubleSide,
+  });
+}
+
+/** The face of the page: its meshes, its one animation, and where each vertex is at the set time. */
+export class Face {
+  /**
+   * @param {string} base64 a GLB in metres, y up, facing +z
+   * @throws {DataError}
+   */
+  static async load(base64) { return new Face(await readGlb(base64)); }
+
+  constructor(gltf) {
+    this.root = gltf.scene;
+    this.head = this.root.getObjectByName(head_name) ?? this.root;
+    this.meshes = [];
+    this.by_primitive = new Map();
+    this.collectMeshes(gltf.parser);
+    if (this.meshes.length === 0) throw new DataError('The face in this page has no mesh.');
+    this.clip = gltf.animations[0] ?? null;
+    if (this.clip) {
+      this.mixer = new AnimationMixer(this.root);
+      this.action = this.mixer.clipAction(this.clip);
+      this.action.setLoop(LoopOnce, 1);
+      this.action.clampWhenFinished = true;
+      this.action.play();
+    }
+    this.setTime(0);
+  }
+
+  collectMeshes(parser) {
+    const skin = defaultSkin();
+    this.root.traverse((object) => {
+      if (!object.isMesh) return;
+      const { meshes: mesh = -1, primitives: primitive = 0 } = parser.associations.get(object) ?? {};
+      const key = `${mesh}/${primitive}`;
+      if (!this.by_primitive.has(key)) this.by_primitive.set(key, object);
+      if (parser.json.meshes[mesh]?.primitives[primitive]?.material === undefined) object.material = skin;
+      if (!object.geometry.attributes.normal) object.material.flatShading = false;
+      completeNormals(object.geometry);
+      object.frustumCulled = false;
+      this.meshes.push(object);
+    });
+  }
+
+  /** @param {number} time seconds; the last pose holds after the animation's end */
+  setTime(time) {
+    if (this.action) {
+      this.action.paused = false;
+      this.action.enabled = true;
+      this.action.time = Math.min(Math.max(time, 0), this.clip.duration);
+      this.mixer.update(0);
+    }
+    this.root.updateMatrixWorld(true);
+  }
+
+  meshAt(mesh, primitive) {
+    const found = this.by_primitive.get(`${mesh}/${primitive}`);
+    if (!found) throw new RangeError(`the face has no primitive ${primitive} of mesh ${mesh}`);
+    return found;
+  }
+
+  /** Vertex in metres in world axes, morphs applied. */
+  worldPoint(mesh, primitive, vertex) {
+    const object = this.meshAt(mesh, primitive);
+    const { count } = object.geometry.attributes.position;
+    if (!Number.isInteger(vertex) || vertex < 0 || vertex >= count) {
+      throw new RangeError(`vertex ${vertex} is outside 0..${count - 1}`);
+    }
+    return object.getVertexPosition(vertex, new Vector3()).applyMatrix4(object.matrixWorld);
+  }
+
+  /**
+   * Vertex at the set time, morphs applied, in the head's own axes (its motion taken out).
+   * @returns {[number, number, number]} mm
+   */
+  vertex(mesh, primitive, vertex) {
+    const to_head = new Matrix4().copy(this.head.matrixWorld).invert();
+    return this.worldPoint(mesh, primitive, vertex).applyMatrix4(to_head).multiplyScalar(mm_per_m).toArray();
+  }
+
+  /** As `vertex`, in world axes. @returns {[number, number, number]} mm */
+  vertexWorld(mesh, primitive, vertex) {
+    return this.worldPoint(mesh, primitive, vertex).multiplyScalar(mm_per_m).toArray();
+  }
+
+  /** What the camera has to show: the box of every vertex at the set time, in metres. */
+  bounds() {
+    const box = new Box3();
+    const point = new Vector3();
+    for (const mesh of this.meshes) {
+      for (let i = 0; i < mesh.geometry.attributes.position.count; ++i) {
+        box.expandByPoint(mesh.getVertexPosition(i, point).applyMatrix4(mesh.matrixWorld));
+      }
+    }
+    return box;
+  }
+}
