@@ -18,11 +18,11 @@ enum class ErrorClass {
 
 // What a person needs to mend a failure. Empty fields are left out of the message.
 struct ErrorDetails {
-  std::string where;     // file, with line or time where known: "u17.lab:12"
-  std::string what;      // one clause, no full stop: `phoneme "axx" is not in set festival_us`
-  std::string expected;  // what would have been right
-  std::string got;       // what was there
-  std::string remedy;    // what to do, a whole sentence: `Did you mean "ax"?`
+  std::string where = {}; // file, with line or time where known: "u17.lab:12"
+  std::string what = {}; // one clause, no full stop: `phoneme "axx" is not in set festival_us`
+  std::string expected = {}; // what would have been right
+  std::string got = {}; // what was there
+  std::string remedy = {}; // what to do, a whole sentence: `Did you mean "ax"?`
 };
 
 // "where: what (expected E, got G). Remedy"
