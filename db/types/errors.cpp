@@ -25,9 +25,11 @@ std::string format_error(const ErrorDetails& details) {
 }
 
 Error::Error(ErrorClass error_class, ErrorDetails details)
-    : std::runtime_error(format_error(details)), class_(error_class),
-      details_(std::move(details)) {}
+    : std::runtime_error(format_error(details)), class_(error_class), details_(std::move(details)) {
+}
 
-std::string at_line(std::string_view path, long line) { return fmt::format("{}:{}", path, line); }
+std::string at_line(std::string_view path, long line) {
+  return fmt::format("{}:{}", path, line);
+}
 
-}  // namespace phonomime
+} // namespace phonomime

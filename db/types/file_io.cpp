@@ -44,7 +44,7 @@ void write_all(int fd, std::string_view bytes, const std::filesystem::path& path
   }
 }
 
-}  // namespace
+} // namespace
 
 std::string read_file(const std::filesystem::path& path, std::uintmax_t largest_bytes) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -123,4 +123,4 @@ void write_file(const std::filesystem::path& target, std::string_view bytes) {
   files.commit();
 }
 
-}  // namespace phonomime
+} // namespace phonomime

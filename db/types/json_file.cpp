@@ -23,7 +23,8 @@ namespace phonomime {
 
 nlohmann::json parse_json(std::string_view text, std::string_view where) {
   if (!is_valid_utf8(text)) {
-    throw InputError({.where = std::string(where), .what = "is not UTF-8 text", .expected = "JSON"});
+    throw InputError(
+        {.where = std::string(where), .what = "is not UTF-8 text", .expected = "JSON"});
   }
   // A parser of untrusted text must not be taken down by its nesting.
   constexpr int kDeepest = 64;
@@ -41,10 +42,10 @@ nlohmann::json parse_json(std::string_view text, std::string_view where) {
     // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
     const std::string_view message = error.what();
     const std::size_t start = message.find("] ");
-    throw InputError(
-        {.where = std::string(where),
-         .what = "is not JSON: " +
-                 std::string(start == std::string_view::npos ? message : message.substr(start + 2))});
+    throw InputError({.where = std::string(where),
+                      .what = fmt::format("is not JSON: {}", start == std::string_view::npos
+                                                                 ? message
+                                                                 : message.substr(start + 2))});
   }
 }
 
@@ -66,7 +67,7 @@ void validate_json(const nlohmann::json& value, std::string_view schema_name,
   std::string member = "$";
   for (const std::string& step : first.context) {
     if (step != "<root>") {
-      member += step.starts_with('[') ? step : "." + step;
+      member += fmt::format("{}{}", step.starts_with('[') ? "" : ".", step);
     }
   }
   throw InputError({.where = std::string(where),
@@ -81,4 +82,4 @@ nlohmann::json parse_json_as(std::string_view schema, std::string_view text,
   return value;
 }
 
-}  // namespace phonomime
+} // namespace phonomime

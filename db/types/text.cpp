@@ -61,7 +61,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-}  // namespace
+} // namespace
 
 std::vector<std::string_view> split_lines(std::string_view text) {
   if (text.starts_with(kByteOrderMark)) {
@@ -213,6 +213,8 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   return question.empty() ? question : question + "?";
 }
 
-std::string format_number(double value) { return fmt::format("{}", value); }
+std::string format_number(double value) {
+  return fmt::format("{}", value);
+}
 
-}  // namespace phonomime
+} // namespace phonomime

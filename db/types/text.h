@@ -24,8 +24,8 @@ std::string_view trim(std::string_view text);
 // ASCII only; other bytes stay as they are.
 std::string to_lower(std::string_view text);
 
-// A whole field as a finite decimal number ("1", "-0.5", "1e-3"), independent of locale; nothing for
-// anything else, NaN and infinity included.
+// A whole field as a finite decimal number ("1", "-0.5", "1e-3"), independent of locale; nothing
+// for anything else, NaN and infinity included.
 std::optional<double> parse_number(std::string_view field);
 
 // A whole field as a decimal integer; nothing for anything else or on overflow.
@@ -37,6 +37,16 @@ bool is_valid_utf8(std::string_view text);
 // A field as it may stand in a message: quoted, shortened to 40 characters, control characters and
 // ill-formed bytes shown as '?'.
 std::string quoted(std::string_view field);
+// The same, where argument-dependent lookup would prefer std::quoted or could not choose.
+inline std::string quoted(const char* field) {
+  return quoted(std::string_view(field));
+}
+inline std::string quoted(const std::string& field) {
+  return quoted(std::string_view(field));
+}
+inline std::string quoted(std::string& field) {
+  return quoted(std::string_view(field));
+}
 
 // Up to `count` of `candidates`, nearest first by edit distance (ASCII case ignored), none farther
 // than half of the longer word's length; ties keep the order given.
@@ -50,4 +60,4 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
 // The shortest decimal text that reads back as the same number, '.' as decimal point.
 std::string format_number(double value);
 
-}  // namespace phonomime
+} // namespace phonomime
