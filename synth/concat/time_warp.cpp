@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/concat/time_warp.h"
+
+namespace phonomime {
+
+void time_warp(const Eigen::Ref<const FrameMatrix>& node, Eigen::Ref<FrameMatrixD> warped) {
+  const Eigen::Index last = node.rows() - 1;
+  const Eigen::Index frames = warped.rows();
+  for (Eigen::Index i = 0; i < frames; ++i) {
+    // u = numerator / denominator, kept whole so that no rounding moves it off a frame.
+    const Eigen::Index numerator = frames == 1 ? last : i * last;
+    const Eigen::Index denominator = frames == 1 ? 2 : frames - 1;
+    const Eigen::Index before = numerator / denominator;
+    const Eigen::Index rest = numerator % denominator;
+    warped.row(i) = node.row(before).cast<double>();
+    if (rest != 0) {
+      const double share = static_cast<double>(rest) / static_cast<double>(denominator);
+      warped.row(i) += share * (node.row(before + 1).cast<double>() - warped.row(i));
+    }
+  }
+}
+
+} // namespace phonomime
