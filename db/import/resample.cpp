@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "db/import/resample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace phonomime {
+
+namespace {
+
+constexpr double kSameTime_frames = 1e-6;  // recorded frames: rounding of times
+constexpr double kPassed = 0.9;            // of the new Nyquist frequency
+constexpr double kHalfWidth_frames = 10.0; // of the low-pass, in new frames
+constexpr double kKaiserBeta = 7.0;        // side lobes under -70 dB
+
+bool goes_down(const SourceClock& recorded, double rate_hz) {
+  return rate_hz < recorded.rate_hz * (1.0 - 1e-9);
+}
+
+// Time of new frame k in recorded frames, rounded onto a recorded frame where it is within
+// rounding.
+double position(Eigen::Index k, const SourceClock& recorded, double rate_hz) {
+  const double at = (static_cast<double>(k) / rate_hz - recorded.start_s) * recorded.rate_hz;
+  const double nearest = std::round(at);
+  return std::abs(at - nearest) < kSameTime_frames ? nearest : at;
+}
+
+// Second derivatives (per frame squared) of the natural cubic spline through the rows.
+FrameMatrixD spline_curvature(const FrameMatrixD& y) {
+  const Eigen::Index n = y.rows();
+  FrameMatrixD curvature = FrameMatrixD::Zero(n, y.cols());
+  if (n < 3) {
+    return curvature;
+  }
+  // m[i-1] + 4 m[i] + m[i+1] = 6 (y[i-1] - 2 y[i] + y[i+1]), m = 0 at both ends.
+  std::vector<double> upper(static_cast<std::size_t>(n), 0.0);
+  for (Eigen::Index i = 1; i + 1 < n; ++i) {
+    const double pivot = 1.0 / (4.0 - upper[static_cast<std::size_t>(i - 1)]);
+    upper[static_cast<std::size_t>(i)] = pivot;
+    curvature.row(i) =
+        pivot * (6.0 * (y.row(i - 1) - 2.0 * y.row(i) + y.row(i + 1)) - curvature.row(i - 1));
+  }
+  for (Eigen::Index i = n - 3; i >= 1; --i) {
+    curvature.row(i) -= upper[static_cast<std::size_t>(i)] * curvature.row(i + 1);
+  }
+  return curvature;
+}
+
+FrameMatrixD upsample(const FrameMatrixD& y, const SourceClock& recorded, double rate_hz,
+                      Eigen::Index count) {
+  const FrameMatrixD m = spline_curvature(y);
+  FrameMatrixD result(count, y.cols());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double at =
+        std::clamp(position(k, recorded, rate_hz), 0.0, static_cast<double>(y.rows() - 1));
+    const auto i = static_cast<Eigen::Index>(std::floor(at));
+    const double b = at - static_cast<double>(i);
+    if (b == 0.0) {
+      result.row(k) = y.row(i);
+      continue;
+    }
+    const double a = 1.0 - b;
+    result.row(k) = a * y.row(i) + b * y.row(i + 1) +
+                    ((a * a * a - a) * m.row(i) + (b * b * b - b) * m.row(i + 1)) / 6.0;
+  }
+  return result;
+}
+
+// Kaiser-windowed sinc at `time` new frames from its middle.
+double low_pass(double time) {
+  const double x = time / kHalfWidth_frames;
+  if (std::abs(x) >= 1.0) {
+    return 0.0;
+  }
+  const double phase = std::numbers::pi * kPassed * time;
+  const double sinc = std::abs(phase) < 1e-9 ? 1.0 : std::sin(phase) / phase;
+  return sinc * std::cyl_bessel_i(0.0, kKaiserBeta * std::sqrt(1.0 - x * x));
+}
+
+FrameMatrixD downsample(const FrameMatrixD& y, const SourceClock& recorded, double rate_hz,
+                        Eigen::Index count) {
+  const auto last = y.rows() - 1;
+  const double new_per_recorded = rate_hz / recorded.rate_hz;
+  const double reach = kHalfWidth_frames / new_per_recorded; // recorded frames
+  FrameMatrixD result = FrameMatrixD::Zero(count, y.cols());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double at = std::clamp(position(k, recorded, rate_hz), 0.0, static_cast<double>(last));
+    double sum = 0.0;
+    for (auto j = static_cast<Eigen::Index>(std::ceil(at - reach));
+         static_cast<double>(j) <= at + reach; ++j) {
+      const double weight = low_pass((static_cast<double>(j) - at) * new_per_recorded);
+      sum += weight;
+      // Beyond an end the recording goes on as its reflection through that end's frame.
+      const Eigen::Index inside = std::clamp<Eigen::Index>(j < 0      ? -j
+                                                           : j > last ? 2 * last - j
+                                                                      : j,
+                                                           0, last);
+      if (j < 0) {
+        result.row(k) += weight * (2.0 * y.row(0) - y.row(inside));
+      } else if (j > last) {
+        result.row(k) += weight * (2.0 * y.row(last) - y.row(inside));
+      } else {
+        result.row(k) += weight * y.row(inside);
+      }
+    }
+    result.row(k) /= sum;
+  }
+  return result;
+}
+
+} // namespace
+
+FrameMatrixD resample(const FrameMatrixD& frames, const SourceClock& recorded, double rate_hz,
+                      Eigen::Index count) {
+  return goes_down(recorded, rate_hz) ? downsample(frames, recorded, rate_hz, count)
+                                      : upsample(frames, recorded, rate_hz, count);
+}
+
+std::vector<HeadPose> resample_head(const std::vector<HeadPose>& head, const SourceClock& recorded,
+                                    double rate_hz, Eigen::Index count) {
+  FrameMatrixD channels(static_cast<Eigen::Index>(head.size()), 7);
+  for (std::size_t k = 0; k < head.size(); ++k) {
+    channels.row(static_cast<Eigen::Index>(k)) << head[k].translation_mm.transpose(),
+        head[k].rotation.coeffs().transpose();
+  }
+  const FrameMatrixD resampled = resample(channels, recorded, rate_hz, count);
+  std::vector<HeadPose> result(static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const auto row = resampled.row(static_cast<Eigen::Index>(k));
+    result[k].translation_mm = row.head<3>().transpose();
+    result[k].rotation.coeffs() = row.tail<4>().transpose();
+    result[k].rotation.normalize();
+  }
+  return result;
+}
+
+std::vector<std::uint8_t> resample_marks(const std::vector<std::uint8_t>& marks,
+                                         const SourceClock& recorded, double rate_hz,
+                                         Eigen::Index count) {
+  const auto last = static_cast<double>(marks.size()) - 1.0;
+  const double reach = goes_down(recorded, rate_hz) ? recorded.rate_hz / rate_hz : 0.0;
+  std::vector<std::uint8_t> result(static_cast<std::size_t>(count), 0);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double at = std::clamp(position(k, recorded, rate_hz), 0.0, last);
+    const auto from = static_cast<std::size_t>(std::floor(std::max(0.0, at - reach)));
+    const auto to = static_cast<std::size_t>(std::ceil(std::min(last, at + reach)));
+    for (std::size_t j = from; j <= to; ++j) {
+      result[static_cast<std::size_t>(k)] |= marks[j];
+    }
+  }
+  return result;
+}
+
+} // namespace phonomime
