@@ -39,7 +39,7 @@ export function bindTransport(transport) {
     scrubber.value = String(transport.time);
     scrubber.style.setProperty('--done', `${(100 * transport.time) / transport.duration}%`);
     scrubber.setAttribute('aria-valuetext', `${transport.time.toFixed(2)} seconds, frame ${frame}`);
-    byId('clock').textContent = `${transport.time.toFixed(3)} / ${transport.duration.toFixed(3)} s · ${frame}`;
+    byId('clock').textContent = `${transport.time.toFixed(3)} / ${transport.duration.toFixed(3)} s · frame ${frame}`;
   };
   transport.addEventListener('state', showState);
   transport.addEventListener('time', showTime);

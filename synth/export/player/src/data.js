@@ -84,7 +84,7 @@ export function joinWords(phonemes, index) {
   const here = phonemes[index];
   if (here.node === null) return 'silence';
   if (here.captured) return 'as recorded';
-  return isJoin(phonemes, index) ? 'joined' : 'after silence';
+  return isJoin(phonemes, index) ? 'made here' : 'after silence';
 }
 
 /**

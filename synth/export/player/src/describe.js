@@ -22,7 +22,7 @@ export function phonemeFacts({ phonemes }, index, curve) {
     ['node', phoneme.node ?? 'none (silence)'],
   ];
   if (phoneme.node !== null) {
-    facts.push(['joined', joinWords(phonemes, index)]);
+    facts.push(['join', joinWords(phonemes, index)]);
     if (phoneme.cost) {
       facts.push(
         ['observation', number(phoneme.cost.observation)],

@@ -13,6 +13,8 @@
  * vertex(mesh, primitive, vertex)       [x, y, z] mm in the head's axes at the set time
  * vertexWorld(mesh, primitive, vertex)  [x, y, z] mm in world axes
  * aperture()         mm, null without lip landmarks; negative where the lips overlap
+ * apertureCurve()    {rate, values_mm}: the aperture at k / rate seconds (rate is fps unless the motion is
+ *                    very long), without drawing; null without lip landmarks
  *
  * Mesh, primitive and vertex are indices into the glTF file.
  * @returns {{resolve: () => void, reject: (error: Error) => void, add: (members: object) => void}}

@@ -98,6 +98,7 @@ async function start(hooks, data) {
       vertex: (...at) => face.vertex(...at),
       vertexWorld: (...at) => face.vertexWorld(...at),
       aperture: () => aperture(face, data.landmarks),
+      apertureCurve: () => curve && { rate: curve.rate, values_mm: [...curve.values_mm] },
     });
   }
   if (failure) throw failure;

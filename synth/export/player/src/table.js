@@ -3,7 +3,7 @@
 import { joinWords } from './data.js';
 import { smallestAperture } from './measure.js';
 
-const headings = ['#', 'Phoneme', 'Start s', 'End s', 'Node', 'Joined', 'Observation', 'Emotion', 'Transition', 'Closure', 'Least aperture mm'];
+const headings = ['#', 'Phoneme', 'Start s', 'End s', 'Node', 'Join', 'Observation', 'Emotion', 'Transition', 'Closure', 'Least aperture mm'];
 const cost = (value) => (typeof value === 'number' ? value.toPrecision(5) : '');
 
 function row(cells, tag) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-import { AnimationMixer, Box3, DoubleSide, LoopOnce, Matrix4, MeshPhysicalMaterial, Vector3 } from 'three';
+import { AnimationMixer, Box3, DoubleSide, LoopOnce, Matrix4, MeshPhysicalMaterial, Sphere, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { bytesFromBase64 } from '../bytes.js';
 import { DataError } from '../data.js';
@@ -8,6 +8,10 @@ import { completeNormals } from './normals.js';
 
 const mm_per_m = 1000;
 const head_name = 'head';
+const face_share = 0.12;
+const region_margin = 0.12; // of its size, on every side
+const skull_margin = 0.3; // of its height, above, where the brows are the last to move
+const whole_margin = 0.05;
 
 function parseGlb(bytes) {
   return new Promise((resolve, reject) => new GLTFLoader().parse(bytes.buffer, '', resolve, reject));
@@ -34,6 +38,20 @@ function defaultSkin() {
     side: DoubleSide,
   });
 }
+
+/** How far the farthest-moving target takes each vertex. @returns {Float32Array} */
+function morphReach(geometry) {
+  const reach = new Float32Array(geometry.attributes.position.count);
+  for (const target of geometry.morphAttributes.position ?? []) {
+    for (let i = 0; i < reach.length; ++i) {
+      reach[i] = Math.max(reach[i], Math.hypot(target.getX(i), target.getY(i), target.getZ(i)));
+    }
+  }
+  return reach;
+}
+
+const expanded = (box, share) => box.clone().expandByVector(box.getSize(new Vector3()).multiplyScalar(share));
+const greatest = (values) => values.reduce((most, value) => Math.max(most, value), 0);
 
 /** The face of the page: its meshes, its one animation, and where each vertex is at the set time. */
 export class Face {
@@ -117,15 +135,25 @@ export class Face {
     return this.worldPoint(mesh, primitive, vertex).multiplyScalar(mm_per_m).toArray();
   }
 
-  /** What the camera has to show: the box of every vertex at the set time, in metres. */
-  bounds() {
-    const box = new Box3();
+  /**
+   * What the camera has to show, at the set time, in metres: the vertices that some morph target
+   * moves by a good part of the most that any vertex moves, with what is next to them, so that a
+   * bust does not make the face small. All that is drawn where nothing morphs.
+   */
+  faceBounds() {
+    const whole = new Box3().setFromObject(this.root, true);
+    const reaches = this.meshes.map((mesh) => morphReach(mesh.geometry));
+    const least = face_share * Math.max(...reaches.map(greatest));
+    const region = new Box3();
     const point = new Vector3();
-    for (const mesh of this.meshes) {
-      for (let i = 0; i < mesh.geometry.attributes.position.count; ++i) {
-        box.expandByPoint(mesh.getVertexPosition(i, point).applyMatrix4(mesh.matrixWorld));
-      }
-    }
-    return box;
+    this.meshes.forEach((mesh, m) => reaches[m].forEach((reach, i) => {
+      if (reach >= least) region.expandByPoint(mesh.getVertexPosition(i, point).applyMatrix4(mesh.matrixWorld));
+    }));
+    const framed = expanded(region, region_margin);
+    framed.max.y += skull_margin * (region.max.y - region.min.y);
+    return framed.intersect(expanded(whole, whole_margin));
   }
+
+  /** Sphere about all that is drawn, in metres. */
+  wholeSphere() { return new Box3().setFromObject(this.root, true).getBoundingSphere(new Sphere()); }
 }

@@ -27,12 +27,12 @@ function castShadow(light, radius) {
  */
 export function studioLights(centre, radius) {
   const group = new Group();
-  const key = lamp(0xfff0e2, 2.5, -1.5, 1.5, 2.4, radius, centre);
+  const key = lamp(0xfff0e2, 1.9, -1.5, 1.5, 2.4, radius, centre);
   castShadow(key, radius);
-  const fill = lamp(0xcfdcff, 0.75, 2.2, 0.2, 1.8, radius, centre);
-  const rim = lamp(0xdfe8ff, 2.2, 1.4, 1.8, -2.4, radius, centre);
-  const back = lamp(0xffe2c8, 0.9, -2.2, 0.6, -1.6, radius, centre);
-  const sky = new HemisphereLight(0xe6ecf5, 0x4a403a, 0.55);
+  const fill = lamp(0xcfdcff, 0.4, 2.2, 0.2, 1.8, radius, centre);
+  const rim = lamp(0xdfe8ff, 1.5, 1.4, 1.8, -2.4, radius, centre);
+  const back = lamp(0xffe2c8, 0.6, -2.2, 0.6, -1.6, radius, centre);
+  const sky = new HemisphereLight(0xe6ecf5, 0x5a4c44, 0.75);
   for (const light of [key, fill, rim, back]) group.add(light, light.target);
   group.add(sky);
   return group;

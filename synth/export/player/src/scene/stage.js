@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 import {
-  ACESFilmicToneMapping, Mesh, MeshBasicMaterial, PCFShadowMap, PerspectiveCamera, PMREMGenerator, Scene, Sphere,
+  Mesh, MeshBasicMaterial, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene,
   Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 import { studioLights } from './lights.js';
 
 const view_angle_deg = 26;
-const margin = 1.1;
 const directions = { front: [0, 0.02, 1], quarter: [0.72, 0.08, 1], side: [1, 0.03, 0.04] };
 
 function makeRenderer(canvas) {
@@ -31,17 +29,18 @@ export class Stage {
     this.canvas = canvas;
     this.face = face;
     this.renderer = makeRenderer(canvas);
-    this.renderer.toneMapping = ACESFilmicToneMapping;
-    this.renderer.toneMappingExposure = 1.05;
+    this.renderer.toneMapping = NeutralToneMapping;
+    this.renderer.toneMappingExposure = 1;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
-    this.box = face.bounds();
-    this.sphere = this.box.getBoundingSphere(new Sphere());
+    this.box = face.faceBounds();
+    this.centre = this.box.getCenter(new Vector3());
+    this.sphere = face.wholeSphere();
     this.camera = new PerspectiveCamera(view_angle_deg, 1, this.sphere.radius / 50, this.sphere.radius * 60);
     this.buildScene();
     this.view = 'front';
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.minDistance = this.sphere.radius * 0.6;
+    this.controls.minDistance = this.sphere.radius * 0.4;
     this.controls.maxDistance = this.sphere.radius * 20;
     this.controls.addEventListener('change', () => this.draw());
     this.controls.addEventListener('start', () => { this.view = null; });
@@ -52,10 +51,6 @@ export class Stage {
 
   buildScene() {
     this.scene = new Scene();
-    const generator = new PMREMGenerator(this.renderer);
-    this.scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
-    this.scene.environmentIntensity = 0.28;
-    generator.dispose();
     this.scene.add(this.face.root, studioLights(this.sphere.center, this.sphere.radius));
     for (const mesh of this.face.meshes) {
       mesh.castShadow = true;
@@ -85,9 +80,9 @@ export class Stage {
     const wide = Math.abs(direction.z) * size.x + Math.abs(direction.x) * size.z;
     const deep = Math.abs(direction.z) * size.z + Math.abs(direction.x) * size.x;
     const tangent = Math.tan((view_angle_deg * Math.PI) / 360);
-    const distance = Math.max(size.y, wide / this.camera.aspect) * (margin / (2 * tangent)) + deep / 2;
-    this.controls.target.copy(this.sphere.center);
-    this.camera.position.copy(this.sphere.center).addScaledVector(direction, distance);
+    const distance = Math.max(size.y, wide / this.camera.aspect) / (2 * tangent) + deep / 2;
+    this.controls.target.copy(this.centre);
+    this.camera.position.copy(this.centre).addScaledVector(direction, distance);
     this.controls.update();
     this.draw();
   }

@@ -22,13 +22,14 @@ function label(context, text, left, right, y) {
   context.fillText(text, (left + right) / 2, y);
 }
 
-/** Text from the left edge of what is visible, shortened to fit. */
-function leftLabel(context, text, left, right, y) {
+/** The first of `texts` that fits, else the last one cut short, from the left edge of what shows. */
+function leftLabel(context, texts, left, right, y) {
   const start = Math.max(left, 0) + 5;
-  const room = right - start - 4;
-  let shown = text;
-  while (shown.length > 1 && context.measureText(shown).width > room) shown = `${shown.slice(0, -2)}…`;
-  if (shown.length < 3 && shown !== text) return;
+  const fits = (text) => context.measureText(text).width <= right - start - 3;
+  const last = texts[texts.length - 1];
+  let shown = texts.find(fits) ?? last;
+  for (let length = last.length - 1; length > 2 && !fits(shown); --length) shown = `${last.slice(0, length)}…`;
+  if (!fits(shown)) return;
   context.textAlign = 'left';
   context.textBaseline = 'middle';
   context.fillText(shown, start, y);
@@ -115,11 +116,13 @@ export function drawPhonemes(pen, phonemes, { hovered, current }) {
   });
 }
 
-/** The recording that each captured run comes from: `s1/neutral/bbaf2n 5–7`. */
-function runName({ first, last }) {
+/** Where a captured run was recorded, long and short: `s1/neutral/bbaf2n 5–7`, `bbaf2n 5–7`, `bbaf2n`. */
+function runNames({ first, last }) {
   const [sentence, from = ''] = first.split('#');
   const to = last.split('#')[1] ?? '';
-  return from === to ? `${sentence} ${from}` : `${sentence} ${from}–${to}`;
+  const orders = from === to ? from : `${from}–${to}`;
+  const short = sentence.split('/').pop();
+  return [`${sentence} ${orders}`, `${short} ${orders}`, short];
 }
 
 export function drawSources(pen, runs) {
@@ -132,7 +135,7 @@ export function drawSources(pen, runs) {
     context.fillStyle = theme.source;
     context.fillRect(left, lane.top, Math.max(1, right - left), lane.height);
     context.fillStyle = theme.muted;
-    leftLabel(context, runName(run), left, right, lane.top + lane.height / 2 + 0.5);
+    leftLabel(context, runNames(run), left, right, lane.top + lane.height / 2 + 0.5);
   }
 }
 
@@ -152,7 +155,7 @@ export function drawEmotions(pen, emotions) {
     context.fillStyle = emotion.color;
     context.fillRect(left, lane.top, Math.max(1, right - left), lane.height);
     context.fillStyle = inkOn(emotion.color);
-    leftLabel(context, emotion.emotion, left, right, lane.top + lane.height / 2 + 0.5);
+    leftLabel(context, [emotion.emotion], left, right, lane.top + lane.height / 2 + 0.5);
   }
 }
 

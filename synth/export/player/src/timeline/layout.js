@@ -3,11 +3,11 @@
 /** Lanes from top to bottom: least height in px, share of what is left over, label. */
 const lanes = {
   ruler: { least: 18, share: 0, label: '' },
-  audio: { least: 36, share: 1, label: 'Audio' },
+  audio: { least: 28, share: 1, label: 'Audio' },
   phonemes: { least: 26, share: 0.15, label: 'Phonemes' },
   sources: { least: 17, share: 0, label: 'Source' },
   emotions: { least: 18, share: 0, label: 'Emotion' },
-  aperture: { least: 52, share: 1.3, label: 'Aperture' },
+  aperture: { least: 42, share: 1.3, label: 'Aperture' },
 };
 const gap = 4;
 
