@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+set(reader_sources
+  alignment_rows.cpp
+  c3d.cpp
+  c3d_bytes.cpp
+  c3d_parameters.cpp
+  c3d_shape.cpp
+  csv_table.cpp
+  htk_label.cpp
+  live_link_csv.cpp
+  live_link_timecode.cpp
+  marker_csv.cpp
+  read_alignment.cpp
+  read_motion.cpp
+  sample_times.cpp
+  textgrid.cpp
+  textgrid_tokens.cpp
+  unicode.cpp
+  xlabel.cpp)
