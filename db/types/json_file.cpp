@@ -123,7 +123,8 @@ ErrorDetails explain(const Mismatch& place, std::string_view description) {
     details.expected = fmt::format("{}", fmt::join(values, ", "));
   } else if (place.schema != nullptr && description.find("'type'") != std::string_view::npos) {
     details.what = place.path + " has the wrong type";
-    details.expected = place.schema->at("type").get<std::string>();
+    const json& type = place.schema->at("type");
+    details.expected = type.is_array() ? type.dump() : type.get<std::string>();
   } else {
     details.what = fmt::format("{}: {}", place.path,
                                description.substr(0, description.find_last_not_of('.') + 1));
