@@ -5,13 +5,12 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { bytesFromBase64 } from '../bytes.js';
 import { DataError } from '../data.js';
 import { completeNormals } from './normals.js';
+import { lineOpenings } from './openings.js';
 
 const mm_per_m = 1000;
 const head_name = 'head';
 const face_share = 0.12;
-const region_margin = 0.12; // of its size, on every side
-const skull_margin = 0.3; // of its height, above, where the brows are the last to move
-const whole_margin = 0.05;
+const frame_margin = 0.06; // of the size, on every side
 
 function parseGlb(bytes) {
   return new Promise((resolve, reject) => new GLTFLoader().parse(bytes.buffer, '', resolve, reject));
@@ -30,9 +29,9 @@ async function readGlb(base64) {
 function defaultSkin() {
   return new MeshPhysicalMaterial({
     name: 'default skin',
-    color: 0xc8937a,
+    color: 0xd9a991,
     roughness: 0.58,
-    sheen: 0.35,
+    sheen: 0.2,
     sheenRoughness: 0.55,
     sheenColor: 0xe8a58c,
     side: DoubleSide,
@@ -50,7 +49,6 @@ function morphReach(geometry) {
   return reach;
 }
 
-const expanded = (box, share) => box.clone().expandByVector(box.getSize(new Vector3()).multiplyScalar(share));
 const greatest = (values) => values.reduce((most, value) => Math.max(most, value), 0);
 
 /** The face of the page: its meshes, its one animation, and where each vertex is at the set time. */
@@ -68,6 +66,7 @@ export class Face {
     this.by_primitive = new Map();
     this.collectMeshes(gltf.parser);
     if (this.meshes.length === 0) throw new DataError('The face in this page has no mesh.');
+    if (this.meshes.length === 1) lineOpenings(this.meshes[0]);
     this.clip = gltf.animations[0] ?? null;
     if (this.clip) {
       this.mixer = new AnimationMixer(this.root);
@@ -136,22 +135,34 @@ export class Face {
   }
 
   /**
-   * What the camera has to show, at the set time, in metres: the vertices that some morph target
-   * moves by a good part of the most that any vertex moves, with what is next to them, so that a
-   * bust does not make the face small. All that is drawn where nothing morphs.
+   * What the camera has to show, at the set time, in metres: everything but what is below the lowest
+   * vertex that morphs to speak of, so that a bust does not make the face small.
    */
   faceBounds() {
-    const whole = new Box3().setFromObject(this.root, true);
     const reaches = this.meshes.map((mesh) => morphReach(mesh.geometry));
     const least = face_share * Math.max(...reaches.map(greatest));
-    const region = new Box3();
+    const whole = new Box3();
+    let chin = Infinity;
+    this.eachVertex((point, m, i) => {
+      whole.expandByPoint(point);
+      if (least > 0 && reaches[m][i] >= least) chin = Math.min(chin, point.y);
+    });
+    const bottom = chin === Infinity ? whole.min.y : chin;
+    const face = new Box3();
+    this.eachVertex((point) => {
+      if (point.y >= bottom) face.expandByPoint(point);
+    });
+    return face.expandByVector(face.getSize(new Vector3()).multiplyScalar(frame_margin));
+  }
+
+  /** Calls visit(world point in metres, number of the mesh, vertex); the point is reused. */
+  eachVertex(visit) {
     const point = new Vector3();
-    this.meshes.forEach((mesh, m) => reaches[m].forEach((reach, i) => {
-      if (reach >= least) region.expandByPoint(mesh.getVertexPosition(i, point).applyMatrix4(mesh.matrixWorld));
-    }));
-    const framed = expanded(region, region_margin);
-    framed.max.y += skull_margin * (region.max.y - region.min.y);
-    return framed.intersect(expanded(whole, whole_margin));
+    this.meshes.forEach((mesh, m) => {
+      for (let i = 0; i < mesh.geometry.attributes.position.count; ++i) {
+        visit(mesh.getVertexPosition(i, point).applyMatrix4(mesh.matrixWorld), m, i);
+      }
+    });
   }
 
   /** Sphere about all that is drawn, in metres. */

@@ -27,7 +27,7 @@ function castShadow(light, radius) {
  */
 export function studioLights(centre, radius) {
   const group = new Group();
-  const key = lamp(0xfff0e2, 1.9, -1.5, 1.5, 2.4, radius, centre);
+  const key = lamp(0xfff0e2, 2.15, -1.5, 1.5, 2.4, radius, centre);
   castShadow(key, radius);
   const fill = lamp(0xcfdcff, 0.4, 2.2, 0.2, 1.8, radius, centre);
   const rim = lamp(0xdfe8ff, 1.5, 1.4, 1.8, -2.4, radius, centre);

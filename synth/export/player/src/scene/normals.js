@@ -6,13 +6,18 @@ import { BufferAttribute } from 'three';
 const work_limit = 4e6;
 
 /** For each vertex the first one at the same place, so that seams shade as one surface. */
-function weldedIndices(position) {
+export function weldedIndices(position) {
   const first = new Map();
   return Uint32Array.from({ length: position.count }, (_, i) => {
     const key = `${position.getX(i)},${position.getY(i)},${position.getZ(i)}`;
     if (!first.has(key)) first.set(key, i);
     return first.get(key);
   });
+}
+
+/** Vertex indices, three a triangle. */
+export function trianglesOf({ index, attributes }) {
+  return index ? index.array : Uint32Array.from({ length: attributes.position.count }, (_, i) => i);
 }
 
 /** Vertex normals of a triangle mesh, weighted by area. `points` is 3 floats a vertex. */
@@ -60,7 +65,7 @@ export function completeNormals(geometry) {
   const wants_morphs = targets.length > 0 && !geometry.morphAttributes.normal && geometry.morphTargetsRelative;
   if (geometry.attributes.normal && !wants_morphs) return;
 
-  const triangles = geometry.index ? geometry.index.array : Uint32Array.from({ length: position.count }, (_, i) => i);
+  const triangles = trianglesOf(geometry);
   const welded = weldedIndices(position);
   const rest = plainArray(position);
   if (!geometry.attributes.normal) {

@@ -80,7 +80,7 @@ export class Stage {
     const wide = Math.abs(direction.z) * size.x + Math.abs(direction.x) * size.z;
     const deep = Math.abs(direction.z) * size.z + Math.abs(direction.x) * size.x;
     const tangent = Math.tan((view_angle_deg * Math.PI) / 360);
-    const distance = Math.max(size.y, wide / this.camera.aspect) / (2 * tangent) + deep / 2;
+    const distance = Math.max(size.y, wide / this.camera.aspect) / (2 * tangent) + deep / 4;
     this.controls.target.copy(this.centre);
     this.camera.position.copy(this.centre).addScaledVector(direction, distance);
     this.controls.update();
