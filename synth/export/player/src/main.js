@@ -75,7 +75,6 @@ async function start(hooks, data) {
       failure = error;
     }
   }
-  if (failure) showError(failure);
 
   const transport = new Transport(data.duration, data.fps, sound);
   const timeline = new Timeline(data, sound, curve);
@@ -116,6 +115,7 @@ try {
     hooks.reject(error);
   });
 } catch (error) {
+  byId('app').classList.add('without-data');
   showError(error);
   hooks.reject(error);
 }

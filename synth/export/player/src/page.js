@@ -34,6 +34,7 @@ export function showError(error) {
   box.replaceChildren(heading, text);
   box.hidden = false;
   byId('busy').hidden = true;
+  byId('now').hidden = true;
   byId('view').hidden = true;
   document.querySelector('.views').hidden = true;
 }
