@@ -17,14 +17,14 @@
 namespace phonomime {
 
 enum class OpenMode {
-  read_only,  // also from read-only media (opened immutable there)
-  read_write  // an existing database or, where the file does not exist or is empty, a new one
+  read_only, // also from read-only media (opened immutable there)
+  read_write // an existing database or, where the file does not exist or is empty, a new one
 };
 
 // One speaker of a database.
 struct SpeakerRecord {
   std::string name;
-  Eigen::VectorXd reference_pose;  // #channels, mm in the layout's axes or weights
+  Eigen::VectorXd reference_pose; // #channels, mm in the layout's axes or weights
 };
 
 // One corpus that went into a database.
@@ -32,9 +32,9 @@ struct CorpusRecord {
   std::string name;
   std::string phoneme_set;
   bool synthetic = false;
-  std::string imported_at;  // UTC, ISO 8601
+  std::string imported_at; // UTC, ISO 8601
   std::int64_t sentences = 0;
-  std::string report_json;  // the import report, as JSON
+  std::string report_json; // the import report, as JSON
 };
 
 // What `info` tells.
@@ -53,20 +53,20 @@ struct DatabaseInfo {
     std::int64_t count = 0;
   };
   std::vector<Count> nodes_per_phoneme, nodes_per_emotion;
-  std::int64_t triphones = 0;  // different ones
+  std::int64_t triphones = 0; // different ones
 };
 
 // Which nodes `nodes` lists; empty members do not filter.
 struct NodeFilter {
   std::string phoneme, emotion, speaker, sentence;
-  std::string previous_phoneme, next_phoneme;  // triphone context
+  std::string previous_phoneme, next_phoneme; // triphone context
   std::optional<bool> suspect, pruned, has_gap;
 };
 
 struct NodeRecord {
   std::string key;
   std::string phoneme, viseme, emotion, speaker, sentence, previous_phoneme, next_phoneme;
-  double start_s = 0.0, end_s = 0.0;  // in its sentence
+  double start_s = 0.0, end_s = 0.0; // in its sentence
   std::int32_t frame_count = 0;
   bool pruned = false, has_gap = false;
   std::string pruned_reason;
@@ -84,9 +84,9 @@ public:
   MotionDatabase& operator=(MotionDatabase&&) noexcept;
   ~MotionDatabase();
 
-  bool empty() const;  // no corpus in it yet
+  bool empty() const; // no corpus in it yet
   DatabaseInfo info() const;
-  std::vector<NodeRecord> list_nodes(const NodeFilter& filter) const;  // in order of key
+  std::vector<NodeRecord> list_nodes(const NodeFilter& filter) const; // in order of key
   std::vector<std::string> speakers() const;
 
   // Everything a search needs of one speaker; `speaker` may be empty where there is only one.
@@ -131,9 +131,9 @@ public:
 
   // Channels of every sentence in the database (#frames by #channels) with its frame_has_gap, those
   // of earlier corpora too, in order of (speaker, emotion, id): what the PCA is fitted to.
-  void for_each_sentence(const std::function<void(const FrameMatrix& channels,
-                                                  const std::vector<std::uint8_t>& frame_has_gap)>&
-                             visit) const;
+  void for_each_sentence(
+      const std::function<void(const FrameMatrix& channels,
+                               const std::vector<std::uint8_t>& frame_has_gap)>& visit) const;
 
   // Stores the model and, for every sentence, its coefficients (float), computed in blocks.
   void set_pca(const PcaModel& pca, const Progress& progress);
@@ -148,4 +148,4 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace phonomime
+} // namespace phonomime

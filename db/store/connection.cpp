@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "db/store/connection.h"
+
+#include "db/store/store_error.h"
+
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <system_error>
+
+namespace phonomime::store {
+namespace {
+
+namespace fs = std::filesystem;
+
+// How long a lock is waited for: a reader's or a commit's, never a whole import's.
+constexpr int kBusyTimeout_ms = 2000;
+
+// page_size: frames are blobs of 30 kB (coefficients) to 300 kB (channels) a sentence; 16 kB pages
+// keep their overflow chains short and waste little on the tables of short rows.
+constexpr const char* kNewFilePragmas = "PRAGMA page_size = 16384";
+
+// trusted_schema, cell_size_check: a file may come from anywhere.
+// synchronous=FULL: everything that COMMIT promises is on the disk when it returns. The checkpoint
+// that follows would sync the WAL anyway, so an import pays nothing for it.
+// cache_size: 64 MB for dirty pages before they spill into the WAL; a bound on memory.
+// wal_autocheckpoint=0: one checkpoint, after COMMIT, whose outcome we look at.
+constexpr const char* kReadPragmas =
+    "PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON; PRAGMA foreign_keys = ON";
+constexpr const char* kWritePragmas =
+    "PRAGMA synchronous = FULL; PRAGMA cache_size = -65536; PRAGMA wal_autocheckpoint = 0";
+
+bool has_content(const fs::path& path) {
+  std::error_code ignored;
+  const auto size = fs::file_size(path, ignored);
+  return !ignored && size > 0;
+}
+
+fs::path beside(const fs::path& path, const char* suffix) {
+  fs::path neighbour = path;
+  neighbour += suffix;
+  return neighbour;
+}
+
+// "file:" URI of an absolute path; everything but unreserved characters is escaped.
+std::string immutable_uri(const fs::path& path) {
+  std::string uri = "file:";
+  for (const char c : path.string()) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '/' || c == '-' || c == '_' || c == '.' || c == '~';
+    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return uri + "?immutable=1";
+}
+
+// Opens and reads the first page, so that a failure shows here.
+std::unique_ptr<SQLite::Database> open_and_touch(const std::string& name, int flags) {
+  auto database = std::make_unique<SQLite::Database>(name, flags, kBusyTimeout_ms);
+  database->exec("SELECT count(*) FROM sqlite_schema");
+  return database;
+}
+
+std::string journal_mode(SQLite::Database& database) {
+  return database.execAndGet("PRAGMA journal_mode").getString();
+}
+
+} // namespace
+
+Connection::Connection(fs::path path, std::string where) noexcept
+    : path_(std::move(path)), where_(std::move(where)) {}
+
+std::shared_ptr<Connection> Connection::open(const fs::path& path, OpenMode mode,
+                                             std::span<const Migration> migrations) {
+  const std::string where = path.string();
+  std::error_code failure;
+  const fs::file_status status = fs::status(path, failure);
+  const bool exists = fs::exists(status);
+  if (exists && !fs::is_regular_file(status)) {
+    throw InputError({.where = where,
+                      .what = "a motion database is a file",
+                      .got = fs::is_directory(status) ? "a folder" : "something else",
+                      .remedy = "Name a file made by `phonomime import`, or a new one."});
+  }
+  if (!exists && mode == OpenMode::read_only) {
+    throw IoError({.where = where,
+                   .what = "there is no such database",
+                   .remedy = "Check the path, or make it with `phonomime import CORPUS --db DB`."});
+  }
+  const fs::path absolute = fs::absolute(path);
+  if (!exists && !fs::is_directory(absolute.parent_path(), failure)) {
+    throw IoError({.where = where,
+                   .what = "the folder of the new database does not exist",
+                   .remedy = "Make the folder first."});
+  }
+  const std::shared_ptr<Connection> connection(new Connection(absolute, where));
+  connection->file_existed_ = exists;
+  translated(where, [&] {
+    if (mode == OpenMode::read_only) {
+      connection->open_read_only(migrations);
+    } else {
+      connection->open_read_write(migrations);
+    }
+    connection->database_->exec(kReadPragmas);
+  });
+  return connection;
+}
+
+void Connection::open_read_only(std::span<const Migration> migrations) {
+  // What was left by a killed import (a hot journal) or by an older program needs a writer first.
+  const auto let_a_writer_in = [&](const char* what) {
+    try {
+      Connection writer(path_, where_);
+      writer.file_existed_ = true;
+      writer.open_read_write(migrations);
+    } catch (const IoError& cause) {
+      throw IoError({.where = where_,
+                     .what = what,
+                     .got = cause.what(),
+                     .remedy = "Copy it, with the files beside it whose names start with its own, "
+                               "to a folder that may be written to."});
+    }
+  };
+  if (has_content(beside(path_, "-journal"))) {
+    let_a_writer_in("an interrupted import must be undone first, which needs to write");
+  }
+  if (!has_content(path_)) {
+    throw InputError({.where = where_,
+                      .what = "this file is empty: there is no corpus in it",
+                      .remedy = "Fill it with `phonomime import CORPUS --db DB`."});
+  }
+  try {
+    database_ = open_and_touch(path_.string(), SQLite::OPEN_READONLY);
+  } catch (const SQLite::Exception& failure) {
+    const int code = failure.getErrorCode() & 0xff;
+    const bool is_access =
+        code == SQLITE_CANTOPEN || code == SQLITE_READONLY || code == SQLITE_IOERR;
+    if (!is_access) {
+      throw;
+    }
+    if (has_content(beside(path_, "-wal"))) {
+      throw IoError({.where = where_,
+                     .what = "the last changes to this database are still in the -wal file beside "
+                             "it, and reading them needs a folder that may be written to",
+                     .remedy = "Copy both files to such a folder."});
+    }
+    // Read-only media, or a folder where no file may be made: nobody can be writing.
+    database_ = open_and_touch(immutable_uri(path_), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
+  }
+  const SchemaIdentity identity = read_identity(*database_);
+  check_identity(identity, migrations, where_);
+  if (identity.version < migrations.back().version) {
+    database_.reset();
+    let_a_writer_in("this database is of an older version and must be converted, which needs to "
+                    "write");
+    database_ = open_and_touch(path_.string(), SQLite::OPEN_READONLY);
+  }
+}
+
+void Connection::open_read_write(std::span<const Migration> migrations) {
+  // Looks first: a database that is not ours must not even have its own journal rolled back.
+  if (has_content(path_) && !has_content(beside(path_, "-journal"))) {
+    const auto probe = open_and_touch(path_.string(), SQLite::OPEN_READONLY);
+    check_identity(read_identity(*probe), migrations, where_);
+  }
+  database_ = std::make_unique<SQLite::Database>(
+      path_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeout_ms);
+  if (sqlite3_db_readonly(database_->getHandle(), "main") == 1) {
+    throw IoError({.where = where_,
+                   .what = "the database cannot be written: the file is read-only",
+                   .remedy = "Change its permissions, or work on a copy."});
+  }
+  database_->exec(kWritePragmas);
+  writable_ = true;
+  if (!has_content(path_)) {
+    database_->exec(kNewFilePragmas);
+  }
+  made_new_ = migrate(*database_, migrations, where_);
+  check_still_there();
+}
+
+void Connection::begin_writing() {
+  database_->exec("PRAGMA journal_mode = WAL");
+  if (journal_mode(*database_) != "wal") {
+    throw IoError({.where = where_,
+                   .what = "the database cannot be switched to write-ahead logging",
+                   .remedy = "Use a local disk: network folders often lack the shared memory it "
+                             "needs."});
+  }
+}
+
+void Connection::check_still_there() const {
+  int has_moved = 0;
+  database_->check(
+      sqlite3_file_control(database_->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved));
+  if (has_moved != 0) {
+    throw IoError({.where = where_,
+                   .what = "another program has removed or replaced this database meanwhile",
+                   .remedy = "Try again."});
+  }
+}
+
+void Connection::check_space_for_checkpoint() const {
+  const auto pages =
+      static_cast<std::uintmax_t>(database_->execAndGet("PRAGMA page_count").getInt64());
+  const auto page_size =
+      static_cast<std::uintmax_t>(database_->execAndGet("PRAGMA page_size").getInt64());
+  std::error_code failure;
+  const std::uintmax_t present = fs::file_size(path_, failure);
+  const fs::space_info space = fs::space(path_, failure);
+  if (!failure && pages * page_size > present && space.available < pages * page_size - present) {
+    throw IoError({.where = where_,
+                   .what = "the disk is full",
+                   .expected = fmt::format("{} MB more", (pages * page_size - present) >> 20),
+                   .got = fmt::format("{} MB free", space.available >> 20),
+                   .remedy = "Free some space and try again; the database is as it was."});
+  }
+}
+
+void Connection::checkpoint() noexcept {
+  database_->tryExec("PRAGMA wal_checkpoint(TRUNCATE)");
+}
+
+void Connection::end_writing() noexcept {
+  try {
+    if (writable_ && database_ && journal_mode(*database_) == "wal") {
+      database_->setBusyTimeout(0); // others may stay for hours
+      database_->tryExec("PRAGMA journal_mode = DELETE");
+      database_->setBusyTimeout(kBusyTimeout_ms);
+    }
+  } catch (const SQLite::Exception&) {
+    // As documented: the WAL stays, and with it everything that was committed.
+  }
+}
+
+void Connection::remove_if_still_new() noexcept {
+  try {
+    if (journal_mode(*database_) == "wal") {
+      return; // others have it open
+    }
+    // The lock keeps other processes from beginning an import while the file goes.
+    database_->setBusyTimeout(0);
+    const SQLite::Transaction lock(*database_, SQLite::TransactionBehavior::EXCLUSIVE);
+    if (database_->execAndGet("SELECT count(*) FROM corpora").getInt() == 0) {
+      std::error_code ignored;
+      if (file_existed_) {
+        fs::resize_file(path_, 0, ignored);
+      } else {
+        fs::remove(path_, ignored);
+      }
+    }
+  } catch (const SQLite::Exception&) {
+    // Somebody else is at work in it: then it is no longer ours to remove.
+  }
+}
+
+Snapshot::Snapshot(const Connection& connection) {
+  if (sqlite3_get_autocommit(connection.database().getHandle()) != 0) {
+    transaction_.emplace(connection.database());
+  }
+}
+
+Connection::~Connection() {
+  end_writing();
+  if (database_ && made_new_) {
+    remove_if_still_new();
+  }
+}
+
+} // namespace phonomime::store

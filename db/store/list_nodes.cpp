@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "db/store/database_impl.h"
+#include "db/store/store_error.h"
+
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace phonomime {
+namespace {
+
+constexpr const char* kQuery =
+    "SELECT k.name, e.name, s.name, n.row, p.name, p.viseme, before.name, after.name, "
+    "r.start_s, r.end_s, n.frame_count, n.has_gap, g.pruned_by IS NOT NULL, g.reason, "
+    "n.sentence_id "
+    "FROM nodes n JOIN sentences s ON s.id = n.sentence_id JOIN speakers k ON k.id = s.speaker_id "
+    "JOIN emotions e ON e.id = n.emotion_id JOIN phonemes p ON p.id = n.phoneme_id "
+    "JOIN phonemes before ON before.id = n.previous_phoneme_id "
+    "JOIN phonemes after ON after.id = n.next_phoneme_id "
+    "JOIN alignment_rows r ON r.sentence_id = n.sentence_id AND r.row = n.row "
+    "LEFT JOIN prunings g ON g.sentence_id = n.sentence_id AND g.row = n.row "
+    "WHERE true";
+
+// The query's conditions with the texts that they bind, in order.
+struct Conditions {
+  std::string sql;
+  std::vector<std::string> texts;
+
+  void equal(const char* column, const std::string& text) {
+    if (!text.empty()) {
+      sql += fmt::format(" AND {} = ?", column);
+      texts.push_back(text);
+    }
+  }
+  void flag(const char* condition, const std::optional<bool>& wanted) {
+    if (wanted) {
+      sql += fmt::format(" AND {}({})", *wanted ? "" : "NOT ", condition);
+    }
+  }
+};
+
+Conditions conditions_of(const NodeFilter& filter) {
+  Conditions conditions;
+  conditions.equal("p.name", filter.phoneme);
+  conditions.equal("e.name", filter.emotion);
+  conditions.equal("k.name", filter.speaker);
+  conditions.equal("s.name", filter.sentence);
+  conditions.equal("before.name", filter.previous_phoneme);
+  conditions.equal("after.name", filter.next_phoneme);
+  conditions.flag("EXISTS (SELECT 1 FROM suspect_marks m WHERE m.sentence_id = n.sentence_id AND "
+                  "m.row = n.row)",
+                  filter.suspect);
+  conditions.flag("g.pruned_by IS NOT NULL", filter.pruned);
+  conditions.flag("n.has_gap = 1", filter.has_gap);
+  return conditions;
+}
+
+} // namespace
+
+std::vector<NodeRecord> MotionDatabase::list_nodes(const NodeFilter& filter) const {
+  const store::Connection& connection = *impl_->connection;
+  return store::translated(connection.where(), [&] {
+    const store::Snapshot snapshot(connection);
+    const Conditions conditions = conditions_of(filter);
+    SQLite::Statement statement(
+        connection.database(), kQuery + conditions.sql + " ORDER BY k.name, e.name, s.name, n.row");
+    int index = 0;
+    for (const std::string& text : conditions.texts) {
+      statement.bind(++index, text);
+    }
+    SQLite::Statement marks(connection.database(),
+                            "SELECT reason FROM suspect_marks WHERE sentence_id = ? AND row = ? "
+                            "ORDER BY reason");
+    std::vector<NodeRecord> records;
+    while (statement.executeStep()) {
+      NodeRecord& record = records.emplace_back();
+      record.speaker = statement.getColumn(0).getString();
+      record.emotion = statement.getColumn(1).getString();
+      record.sentence = statement.getColumn(2).getString();
+      const int row = statement.getColumn(3).getInt();
+      record.key = fmt::format("{}/{}/{}#{}", record.speaker, record.emotion, record.sentence, row);
+      record.phoneme = statement.getColumn(4).getString();
+      record.viseme = statement.getColumn(5).getString();
+      record.previous_phoneme = statement.getColumn(6).getString();
+      record.next_phoneme = statement.getColumn(7).getString();
+      record.start_s = statement.getColumn(8).getDouble();
+      record.end_s = statement.getColumn(9).getDouble();
+      record.frame_count = statement.getColumn(10).getInt();
+      record.has_gap = statement.getColumn(11).getInt() != 0;
+      record.pruned = statement.getColumn(12).getInt() != 0;
+      record.pruned_reason = record.pruned ? statement.getColumn(13).getString() : "";
+      marks.reset();
+      marks.bind(1, statement.getColumn(14).getInt64());
+      marks.bind(2, row);
+      while (marks.executeStep()) {
+        record.suspect.push_back(marks.getColumn(0).getString());
+      }
+    }
+    return records;
+  });
+}
+
+} // namespace phonomime

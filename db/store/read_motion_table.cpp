@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "db/store/blobs.h"
+#include "db/store/database_impl.h"
+#include "db/store/read_common.h"
+#include "db/store/store_error.h"
+#include "db/types/text.h"
+
+#include <SQLiteCpp/Statement.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <unordered_map>
+
+namespace phonomime {
+namespace {
+
+using store::Connection;
+using store::throw_damaged;
+
+// Ids of the file onto indexes into the table's vectors.
+using IndexOfId = std::unordered_map<std::int64_t, std::int32_t>;
+
+std::int32_t at(const IndexOfId& index, std::int64_t id, const Connection& connection) {
+  const auto found = index.find(id);
+  if (found == index.end()) {
+    throw_damaged(connection.where(), fmt::format("a reference to nothing (id {})", id));
+  }
+  return found->second;
+}
+
+store::NamedRow choose_speaker(const Connection& connection, const std::string& wanted) {
+  const std::vector<store::NamedRow> speakers = store::read_names(connection, "speakers");
+  const std::vector<std::string> names = store::names_of(speakers);
+  if (wanted.empty() && speakers.size() == 1) {
+    return speakers.front();
+  }
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  if (!wanted.empty() && found != names.end()) {
+    return speakers[static_cast<std::size_t>(found - names.begin())];
+  }
+  throw InputError(
+      {.where = connection.where(),
+       .what = wanted.empty() ? "the database holds several speakers"
+                              : fmt::format("there is no speaker {}", quoted(wanted)),
+       .expected = fmt::format("one of {}", fmt::join(names, ", ")),
+       .remedy = wanted.empty() ? "Choose one with --speaker." : did_you_mean(wanted, names)});
+}
+
+// Fills a MotionTable within one read transaction.
+class TableReader {
+public:
+  TableReader(const Connection& connection, MotionTable& table)
+      : connection_(connection), table_(table) {}
+
+  void read(const std::string& wanted_speaker) {
+    store::Settings settings = store::require_settings(connection_);
+    table_.layout = std::move(settings.layout);
+    table_.rate_hz = settings.rate_hz;
+    std::optional<PcaModel> pca = store::read_pca(connection_, table_.layout.channel_count());
+    if (!pca) {
+      throw_damaged(connection_.where(), "it has no PCA");
+    }
+    table_.pca = *std::move(pca);
+    const store::NamedRow speaker = choose_speaker(connection_, wanted_speaker);
+    table_.speaker = speaker.name;
+    read_reference_pose(speaker.id);
+    read_corpora(speaker.id);
+    read_symbols();
+    read_sentences(speaker.id);
+    read_nodes();
+    link_captured_neighbours();
+    read_coefficients();
+  }
+
+private:
+  struct Sentence {
+    std::int64_t id = 0;
+    std::int64_t first_frame = 0; // into the rows of MotionTable::coefficients
+    std::int64_t frame_count = 0;
+  };
+
+  void read_reference_pose(std::int64_t speaker_id) {
+    SQLite::Statement statement(connection_.database(),
+                                "SELECT reference_pose FROM speakers WHERE id = ?");
+    statement.bind(1, speaker_id);
+    statement.executeStep();
+    table_.reference_pose =
+        store::read_vector(connection_, statement.getColumn(0), table_.layout.channel_count(),
+                           "the speaker's reference pose");
+  }
+
+  void read_corpora(std::int64_t speaker_id) {
+    SQLite::Statement statement(
+        connection_.database(),
+        "SELECT phoneme_set, synthetic FROM corpora WHERE id IN "
+        "(SELECT corpus_id FROM sentences WHERE speaker_id = ?) ORDER BY id");
+    statement.bind(1, speaker_id);
+    while (statement.executeStep()) {
+      const std::string set = statement.getColumn(0).getString();
+      if (std::find(table_.phoneme_sets.begin(), table_.phoneme_sets.end(), set) ==
+          table_.phoneme_sets.end()) {
+        table_.phoneme_sets.push_back(set);
+      }
+      table_.synthetic = table_.synthetic || statement.getColumn(1).getInt() != 0;
+    }
+  }
+
+  void read_symbols() {
+    std::map<std::string, std::int32_t> viseme_index;
+    for (store::StoredPhoneme& stored : store::read_phonemes(connection_)) {
+      const auto next = static_cast<std::int32_t>(table_.visemes.size());
+      const auto [viseme, is_new] = viseme_index.try_emplace(stored.phoneme.viseme, next);
+      if (is_new) {
+        table_.visemes.push_back(stored.phoneme.viseme);
+      }
+      viseme_of_phoneme_.push_back(viseme->second);
+      phoneme_index_[stored.id] = static_cast<std::int32_t>(table_.phonemes.size());
+      table_.phonemes.push_back(std::move(stored.phoneme));
+    }
+    if (table_.phonemes.empty() || table_.phonemes.front().name != kSilence) {
+      throw_damaged(connection_.where(), "it does not know silence");
+    }
+    for (const store::NamedRow& emotion : store::read_names(connection_, "emotions")) {
+      emotion_index_[emotion.id] = static_cast<std::int32_t>(table_.emotions.size());
+      table_.emotions.push_back(emotion.name);
+    }
+  }
+
+  void read_sentences(std::int64_t speaker_id) {
+    SQLite::Statement statement(
+        connection_.database(),
+        "SELECT s.id, e.name, s.name, s.text, s.frame_count, length(c.frames) FROM sentences s "
+        "JOIN emotions e ON e.id = s.emotion_id LEFT JOIN coefficients c ON c.sentence_id = s.id "
+        "WHERE s.speaker_id = ? ORDER BY e.name, s.name");
+    const std::int64_t bytes_per_frame = table_.pca.dimension_count() * sizeof(float);
+    statement.bind(1, speaker_id);
+    while (statement.executeStep()) {
+      const std::int64_t frame_count = statement.getColumn(4).getInt64();
+      // Before memory for so many frames is asked for.
+      if (frame_count < 1 || frame_count > std::numeric_limits<std::int32_t>::max() ||
+          frame_count * bytes_per_frame != statement.getColumn(5).getInt64()) {
+        throw_damaged(connection_.where(), "coefficients that do not fit their sentence's frames");
+      }
+      sentences_.push_back({statement.getColumn(0).getInt64(), frame_total_, frame_count});
+      frame_total_ += frame_count;
+      table_.sentences.push_back({table_.speaker, statement.getColumn(1).getString(),
+                                  statement.getColumn(2).getString(),
+                                  statement.getColumn(3).getString()});
+    }
+  }
+
+  void read_nodes() {
+    SQLite::Statement statement(
+        connection_.database(),
+        "SELECT n.row, n.first_frame, n.frame_count, n.phoneme_id, n.previous_phoneme_id, "
+        "n.next_phoneme_id, n.emotion_id, n.has_gap, p.pruned_by, p.pruned_at, p.reason "
+        "FROM nodes n LEFT JOIN prunings p ON p.sentence_id = n.sentence_id AND p.row = n.row "
+        "WHERE n.sentence_id = ? ORDER BY n.row");
+    for (std::size_t s = 0; s < sentences_.size(); ++s) {
+      statement.reset();
+      statement.bind(1, sentences_[s].id);
+      while (statement.executeStep()) {
+        read_node(statement, static_cast<std::int32_t>(s));
+      }
+    }
+  }
+
+  void read_node(SQLite::Statement& row, std::int32_t sentence) {
+    const Sentence& owner = sentences_[static_cast<std::size_t>(sentence)];
+    MotionNode node;
+    node.sentence = sentence;
+    node.order = row.getColumn(0).getInt();
+    const std::int64_t first = row.getColumn(1).getInt64();
+    const std::int64_t count = row.getColumn(2).getInt64();
+    if (first < 0 || count < 1 || count > owner.frame_count || first > owner.frame_count - count) {
+      throw_damaged(connection_.where(),
+                    fmt::format("frames of {} outside its sentence", key(sentence, node.order)));
+    }
+    if (!row.isColumnNull(8)) {
+      table_.unavailable.push_back(
+          {key(sentence, node.order),
+           fmt::format("pruned by {} on {}: {}", row.getColumn(8).getString(),
+                       row.getColumn(9).getString().substr(0, 10), row.getColumn(10).getString())});
+      return;
+    }
+    if (row.getColumn(7).getInt() != 0) {
+      table_.unavailable.push_back({key(sentence, node.order), "has unfilled gaps"});
+      return;
+    }
+    node.first_frame = owner.first_frame + first;
+    node.frame_count = static_cast<std::int32_t>(count);
+    node.phoneme = at(phoneme_index_, row.getColumn(3).getInt64(), connection_);
+    node.previous_phoneme = at(phoneme_index_, row.getColumn(4).getInt64(), connection_);
+    node.next_phoneme = at(phoneme_index_, row.getColumn(5).getInt64(), connection_);
+    node.emotion = at(emotion_index_, row.getColumn(6).getInt64(), connection_);
+    node.viseme = viseme_of_phoneme_[static_cast<std::size_t>(node.phoneme)];
+    table_.nodes.push_back(node);
+  }
+
+  // Rows of silence have no node and what is pruned or has gaps is not in the table, so a captured
+  // succession is one of nodes whose rows follow each other.
+  void link_captured_neighbours() {
+    for (std::size_t i = 1; i < table_.nodes.size(); ++i) {
+      MotionNode& previous = table_.nodes[i - 1];
+      MotionNode& node = table_.nodes[i];
+      if (previous.sentence == node.sentence && previous.order + 1 == node.order) {
+        node.predecessor = static_cast<NodeIndex>(i - 1);
+        previous.successor = static_cast<NodeIndex>(i);
+      }
+    }
+  }
+
+  void read_coefficients() {
+    const Eigen::Index dimensions = table_.pca.dimension_count();
+    table_.coefficients.resize(frame_total_, dimensions);
+    SQLite::Statement statement(connection_.database(),
+                                "SELECT frames FROM coefficients WHERE sentence_id = ?");
+    for (const Sentence& sentence : sentences_) {
+      statement.reset();
+      statement.bind(1, sentence.id);
+      if (!statement.executeStep()) {
+        throw_damaged(connection_.where(), "a sentence without coefficients");
+      }
+      auto block = table_.coefficients.middleRows(sentence.first_frame, sentence.frame_count);
+      store::copy_numbers(statement.getColumn(0),
+                          std::span(block.data(), static_cast<std::size_t>(block.size())),
+                          connection_.where(), "a sentence's coefficients");
+      if (!block.allFinite()) {
+        throw_damaged(connection_.where(), "coefficients that are no numbers");
+      }
+    }
+  }
+
+  std::string key(std::int32_t sentence, std::int32_t order) const {
+    const SentenceInfo& info = table_.sentences[static_cast<std::size_t>(sentence)];
+    return fmt::format("{}/{}/{}#{}", info.speaker, info.emotion, info.id, order);
+  }
+
+  const Connection& connection_;
+  MotionTable& table_;
+  IndexOfId phoneme_index_, emotion_index_;
+  std::vector<std::int32_t> viseme_of_phoneme_;
+  std::vector<Sentence> sentences_;
+  std::int64_t frame_total_ = 0;
+};
+
+} // namespace
+
+MotionTable MotionDatabase::load_motion_table(const std::string& speaker) const {
+  const Connection& connection = *impl_->connection;
+  return store::translated(connection.where(), [&] {
+    const store::Snapshot snapshot(connection);
+    MotionTable table;
+    TableReader(connection, table).read(speaker);
+    return table;
+  });
+}
+
+} // namespace phonomime
