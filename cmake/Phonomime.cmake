@@ -25,7 +25,11 @@ find_package(nlohmann_json REQUIRED)
 add_library(phonomime_options INTERFACE)
 target_include_directories(phonomime_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(phonomime_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-  -Wno-sign-conversion -Wnon-virtual-dtor -ffp-contract=off)
+  -Wno-sign-conversion -Wnon-virtual-dtor -ffp-contract=off
+  # Structs have default member values: a designated initialiser may leave members out.
+  -Wno-missing-field-initializers
+  # g++ 12 warns of overlaps inside std::string that cannot happen (GCC bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 target_compile_definitions(phonomime_options INTERFACE EIGEN_DONT_PARALLELIZE)
 if(PHONOMIME_WERROR)
   target_compile_options(phonomime_options INTERFACE -Werror)

@@ -11,36 +11,36 @@ namespace phonomime {
 
 // Weights of the cost of E4 (E Tables I and II, E5, E7). alpha3 in 1/s, pnt in mm/s (markers).
 struct CostWeights {
-  double alpha1 = 0.0;  // sentence start (Table I rule 4), times pnt
-  double alpha2 = 0.0;  // direct smoothing cost (E6)
-  double alpha3 = 0.0;  // position gap against velocity gap (E7)
-  double alpha4 = 0.0;  // same viseme, other phoneme (Table II rule 2), in (0, 1)
-  double alpha5 = 0.0;  // other phoneme (Table II), times pnt
-  double alpha6 = 0.0;  // other emotion (E5), times pnt
-  double pnt = 0.0;     // PNT
+  double alpha1 = 0.0; // sentence start (Table I rule 4), times pnt
+  double alpha2 = 0.0; // direct smoothing cost (E6)
+  double alpha3 = 0.0; // position gap against velocity gap (E7)
+  double alpha4 = 0.0; // same viseme, other phoneme (Table II rule 2), in (0, 1)
+  double alpha5 = 0.0; // other phoneme (Table II), times pnt
+  double alpha6 = 0.0; // other emotion (E5), times pnt
+  double pnt = 0.0;    // PNT
 };
 
 // One phoneme of the transcript as the search sees it.
 struct SearchStep {
-  std::int32_t phoneme = 0;   // into MotionTable::phonemes; -1 = the database has no such phoneme
-  std::int32_t viseme = 0;    // into MotionTable::visemes; -1 = none such
-  std::int32_t emotion = 0;   // into MotionTable::emotions; -1 = none such
+  std::int32_t phoneme = 0; // into MotionTable::phonemes; -1 = the database has no such phoneme
+  std::int32_t viseme = 0;  // into MotionTable::visemes; -1 = none such
+  std::int32_t emotion = 0; // into MotionTable::emotions; -1 = none such
   bool is_silence = false;
-  std::vector<NodeIndex> allowed;  // sorted; empty = every node (B of E10)
-  std::vector<NodeIndex> avoided;  // sorted
+  std::vector<NodeIndex> allowed; // sorted; empty = every node (B of E10)
+  std::vector<NodeIndex> avoided; // sorted
 };
 
 // Cost terms of one step of a path.
 struct StepCost {
-  double observation = 0.0;  // E Table II
-  double emotion = 0.0;      // E5
-  double transition = 0.0;   // E Table I, the incoming join; 0 at the first step
+  double observation = 0.0; // E Table II
+  double emotion = 0.0;     // E5
+  double transition = 0.0;  // E Table I, the incoming join; 0 at the first step
 };
 
 struct NodePath {
-  double cost = 0.0;             // E4, summed as (phi + TC) + (OC + EMP)
-  std::vector<NodeIndex> nodes;  // one per step
-  std::vector<StepCost> steps;   // one per step
+  double cost = 0.0;            // E4, summed as (phi + TC) + (OC + EMP)
+  std::vector<NodeIndex> nodes; // one per step
+  std::vector<StepCost> steps;  // one per step
 };
 
-}  // namespace phonomime
+} // namespace phonomime

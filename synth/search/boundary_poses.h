@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/motion_table.h"
+#include "synth/search/node_records.h"
+
+#include <span>
+
+namespace phonomime {
+
+// The poses and velocities at the two ends of motion nodes, which E8 and E9 compare. From the E11
+// reconstruction in double, ((mean + e0 c0) + e1 c1) + ..., rounded to float once. A velocity is
+// the one-sided difference inside the node times the rate, in mm/s (or weight/s); 0 for one frame.
+//
+// Kept only for the nodes asked for: a database of 80,000 nodes would need 350 MB for all.
+class BoundaryPoses {
+public:
+  explicit BoundaryPoses(const MotionTable& table);
+
+  // Computes what is not yet there for these nodes. Not for parallel regions (it has its own).
+  void ensure(std::span<const NodeIndex> nodes);
+
+  // #channels_per_group * 2 planes (x, y, z of the pose, then of the velocity), each of
+  // group_stride() floats, padded with zeros. Only for nodes that ensure() has seen.
+  const float* first(NodeIndex node) const { return records_[node]; }
+  const float* last(NodeIndex node) const { return records_[node] + end_floats_; }
+
+  std::size_t group_stride() const { return group_stride_; }
+  int channels_per_group() const { return channels_per_group_; }
+
+private:
+  double reconstruct(Eigen::Index channel, const float* coefficients) const; // E11
+  void fill_end(float* record, std::int64_t edge, std::int64_t before, std::int64_t after) const;
+
+  const MotionTable& table_;
+  FrameMatrixD basis_; // #channels by #dimensions
+  int channels_per_group_;
+  std::size_t group_stride_;
+  std::size_t end_floats_; // of one end of a node
+  NodeRecords records_;    // first end, then last end
+};
+
+} // namespace phonomime

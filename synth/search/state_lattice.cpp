@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/search/state_lattice.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace phonomime {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A node that may stand at a step, with a lower bound of the cost that follows it.
+struct Candidate {
+  NodeIndex node = kNoNode;
+  double penalty = 0.0;
+  double to_go = 0.0;
+};
+
+std::vector<Candidate> core_candidates(const LatticeInput& input, std::size_t t) {
+  const StepNodes& nodes = input.nodes[t];
+  std::vector<Candidate> candidates;
+  candidates.reserve(nodes.core.size());
+  for (std::size_t i = 0; i < nodes.core.size(); ++i) {
+    candidates.push_back({nodes.core[i], nodes.core_penalty[i], input.bounds.core_to_go[t][i]});
+  }
+  return candidates;
+}
+
+// Candidates from which a path may stay within the budget, given the least cost of the step before.
+std::vector<Candidate> possible_candidates(const LatticeInput& input, std::size_t t,
+                                           double least_before, double budget) {
+  std::vector<Candidate> candidates = core_candidates(input, t);
+  std::erase_if(candidates,
+                [&](const Candidate& c) { return least_before + c.penalty + c.to_go > budget; });
+  for (const double penalty : input.nodes[t].rest_penalties) {
+    const double to_go = input.bounds.rest_to_go[t];
+    if (least_before + penalty + to_go > budget) {
+      break; // ascending
+    }
+    for (const NodeIndex node :
+         rest_of_step(input.table, input.steps[t], input.cost.weights(), input.nodes[t], penalty)) {
+      candidates.push_back({node, penalty, to_go});
+    }
+  }
+  std::ranges::sort(candidates, {}, &Candidate::node);
+  return candidates;
+}
+
+void ensure_nodes(const LatticeInput& input, const std::vector<Candidate>& candidates) {
+  std::vector<NodeIndex> nodes;
+  nodes.reserve(candidates.size());
+  std::ranges::transform(candidates, std::back_inserter(nodes), &Candidate::node);
+  input.cost.ensure(nodes);
+  input.bound.ensure(nodes);
+}
+
+void append(StepStates& states, const Candidate& candidate, double cost, NodeIndex predecessor) {
+  states.nodes.push_back(candidate.node);
+  states.cost.push_back(cost);
+  states.penalty.push_back(candidate.penalty);
+  states.predecessor.push_back(predecessor);
+}
+
+StepStates first_states(const std::vector<Candidate>& candidates) {
+  StepStates states;
+  for (const Candidate& candidate : candidates) {
+    append(states, candidate, candidate.penalty, kNoNode);
+  }
+  return states;
+}
+
+// Algorithm 1, lines 5 to 8, for the candidates alone; what is above the budget is dropped.
+StepStates next_states(const LatticeInput& input, const StepStates& before,
+                       const std::vector<Candidate>& candidates, double budget,
+                       JoinFrontier::Counts& counts) {
+  const JoinFrontier frontier(JoinFrontier::Side::earlier, input.cost, input.bound, before.nodes,
+                              before.cost);
+  std::vector<JoinFrontier::Best> best(candidates.size());
+  std::int64_t bounds_seen = 0;
+  std::int64_t transitions = 0;
+#pragma omp parallel for schedule(dynamic, 16) reduction(+ : bounds_seen, transitions)             \
+    if (candidates.size() > kWorthThreads)
+  for (std::size_t j = 0; j < candidates.size(); ++j) {
+    JoinFrontier::Counts own;
+    best[j] = frontier.best_join(candidates[j].node, candidates[j].penalty,
+                                 budget - candidates[j].to_go, own);
+    bounds_seen += own.bounds;
+    transitions += own.transitions;
+  }
+  counts.bounds += bounds_seen;
+  counts.transitions += transitions;
+  StepStates states;
+  for (std::size_t j = 0; j < candidates.size(); ++j) {
+    if (best[j].node != kNoNode) {
+      append(states, candidates[j], best[j].value, best[j].node);
+    }
+  }
+  return states;
+}
+
+// The `width` candidates of least estimated total, in order of node.
+void keep_most_promising(std::vector<Candidate>& candidates, const std::vector<double>& estimate,
+                         std::size_t width) {
+  if (candidates.size() <= width) {
+    return;
+  }
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::nth_element(order, order.begin() + static_cast<std::ptrdiff_t>(width),
+                           [&](std::size_t a, std::size_t b) {
+                             return estimate[a] != estimate[b] ? estimate[a] < estimate[b] : a < b;
+                           });
+  order.resize(width);
+  std::ranges::sort(order);
+  std::vector<Candidate> kept;
+  for (const std::size_t i : order) {
+    kept.push_back(candidates[i]);
+  }
+  candidates = std::move(kept);
+}
+
+} // namespace
+
+Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Counts& counts) {
+  Lattice lattice;
+  for (std::size_t t = 0; t < input.steps.size(); ++t) {
+    input.progress.update("search", static_cast<std::int64_t>(t),
+                          static_cast<std::int64_t>(input.steps.size()));
+    const double least_before = t == 0 ? 0.0 : std::ranges::min(lattice.back().cost);
+    const std::vector<Candidate> candidates = possible_candidates(input, t, least_before, budget);
+    ensure_nodes(input, candidates);
+    lattice.push_back(t == 0 ? first_states(candidates)
+                             : next_states(input, lattice.back(), candidates, budget, counts));
+  }
+  return lattice;
+}
+
+Lattice beam_lattice(const LatticeInput& input, std::size_t width, JoinFrontier::Counts& counts) {
+  Lattice lattice;
+  for (std::size_t t = 0; t < input.steps.size(); ++t) {
+    input.progress.update("search", 0, static_cast<std::int64_t>(input.steps.size()));
+    std::vector<Candidate> candidates = core_candidates(input, t);
+    std::vector<double> estimate(candidates.size());
+    if (t == 0) {
+      std::ranges::transform(candidates, estimate.begin(),
+                             [](const Candidate& c) { return c.penalty + c.to_go; });
+    } else {
+      const JoinFrontier frontier(JoinFrontier::Side::earlier, input.cost, input.bound,
+                                  lattice.back().nodes, lattice.back().cost);
+      std::int64_t bounds_seen = 0;
+#pragma omp parallel for schedule(dynamic, 16) reduction(+ : bounds_seen)
+      for (std::size_t j = 0; j < candidates.size(); ++j) {
+        JoinFrontier::Counts own;
+        estimate[j] = frontier.bound_join(candidates[j].node, kInfinity, own) +
+                      candidates[j].penalty + candidates[j].to_go;
+        bounds_seen += own.bounds;
+      }
+      counts.bounds += bounds_seen;
+    }
+    keep_most_promising(candidates, estimate, width);
+    ensure_nodes(input, candidates);
+    lattice.push_back(t == 0 ? first_states(candidates)
+                             : next_states(input, lattice.back(), candidates, kInfinity, counts));
+  }
+  return lattice;
+}
+
+NodePath best_path(const LatticeInput& input, const Lattice& lattice) {
+  NodePath path;
+  const std::size_t length = lattice.size();
+  const std::vector<double>& final_cost = lattice.back().cost;
+  const auto place = std::ranges::min_element(final_cost) - final_cost.begin(); // first smallest
+  path.cost = final_cost[static_cast<std::size_t>(place)];
+  path.nodes.resize(length);
+  path.steps.resize(length);
+  NodeIndex node = lattice.back().nodes[static_cast<std::size_t>(place)];
+  for (std::size_t t = length; t-- > 0;) {
+    path.nodes[t] = node;
+    const std::vector<NodeIndex>& nodes = lattice[t].nodes;
+    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
+    node = lattice[t].predecessor[at];
+  }
+  for (std::size_t t = 0; t < length; ++t) {
+    const MotionNode& info = input.table.nodes[static_cast<std::size_t>(path.nodes[t])];
+    path.steps[t].observation = observation_cost(input.steps[t], info, input.cost.weights());
+    path.steps[t].emotion = emotion_cost(input.steps[t], info, input.cost.weights());
+    path.steps[t].transition =
+        t == 0 ? 0.0 : input.cost.transition(path.nodes[t - 1], path.nodes[t]);
+  }
+  return path;
+}
+
+} // namespace phonomime

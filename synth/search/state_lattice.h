@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/progress.h"
+#include "synth/search/join_frontier.h"
+#include "synth/search/relaxed_bounds.h"
+#include "synth/search/step_costs.h"
+
+#include <span>
+#include <vector>
+
+namespace phonomime {
+
+// The states of one step that a pass has kept, with phi and chi of Algorithm 1.
+struct StepStates {
+  std::vector<NodeIndex> nodes;       // ascending
+  std::vector<double> cost;           // phi: least cost of a path that ends here
+  std::vector<double> penalty;        // OC + EMP
+  std::vector<NodeIndex> predecessor; // chi; kNoNode at the first step
+};
+using Lattice = std::vector<StepStates>;
+
+// What the passes of a search share.
+struct LatticeInput {
+  const MotionTable& table;
+  std::span<const SearchStep> steps;
+  std::span<const StepNodes> nodes; // per step
+  const RelaxedBounds& bounds;
+  JoinCost& cost;
+  JoinBound& bound;
+  const Progress& progress;
+};
+
+// The forward pass over all states from which a path of cost <= budget may be: exact costs for
+// every path up to the budget.
+Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Counts& counts);
+
+// The forward pass over the `width` most promising states of each step: costs of real paths, an
+// upper bound of the optimum.
+Lattice beam_lattice(const LatticeInput& input, std::size_t width, JoinFrontier::Counts& counts);
+
+// The best path of a lattice: smallest cost, ties to the smallest last node. Steps' cost terms are
+// filled in.
+NodePath best_path(const LatticeInput& input, const Lattice& lattice);
+
+} // namespace phonomime

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plain_recursion.h"
+#include "random_tables.h"
+
+#include "db/types/errors.h"
+#include "synth/search/viterbi_search.h"
+
+#include <atomic>
+
+#include <gtest/gtest.h>
+
+namespace phonomime {
+namespace {
+
+using test::Draw;
+using test::PlainRecursion;
+
+void expect_same_as_judge(const MotionTable& table, const CostWeights& weights,
+                          const std::vector<SearchStep>& steps) {
+  const NodePath judged = PlainRecursion(table, weights).solve(steps);
+  ViterbiSearch search(table, weights);
+  for (const int threads : {1, 2}) {
+    const NodePath path = search.solve(steps, {.threads = threads}).path;
+    ASSERT_EQ(path.cost, judged.cost);
+    ASSERT_EQ(path.nodes, judged.nodes);
+  }
+}
+
+// Cost terms, summed as E4 is defined here, give the path's cost.
+void expect_terms_add_up(const NodePath& path) {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < path.steps.size(); ++t) {
+    const double penalty = path.steps[t].observation + path.steps[t].emotion;
+    sum = t == 0 ? penalty : (sum + path.steps[t].transition) + penalty;
+  }
+  EXPECT_EQ(sum, path.cost);
+}
+
+TEST(ViterbiSearch, equals_the_plain_recursion_on_random_databases) {
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Draw draw(seed);
+    test::TableShape shape;
+    shape.sentences = 1 + draw.below(12);
+    shape.groups = 1 + draw.below(7);
+    shape.kind = draw.chance(0.25) ? LayoutKind::weights : LayoutKind::markers;
+    shape.dimensions =
+        1 + draw.below(shape.kind == LayoutKind::markers ? 3 * shape.groups : shape.groups);
+    shape.emotions = 1 + draw.below(4);
+    shape.phonemes = 1 + draw.below(8);
+    shape.duplicate_chance = seed % 3 == 0 ? 0.5 : 0.0;
+    const MotionTable table = test::random_table(shape, draw);
+    const CostWeights weights = test::random_weights(draw);
+    const std::vector<SearchStep> steps = test::random_steps(table, 1 + draw.below(14), draw);
+    ASSERT_NO_FATAL_FAILURE(expect_same_as_judge(table, weights, steps));
+  }
+}
+
+TEST(ViterbiSearch, breaks_ties_as_the_plain_recursion_does) {
+  // Every sentence is there twice, so that each optimum is there at least twice.
+  for (std::uint64_t seed = 1000; seed < 1200; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Draw draw(seed);
+    test::TableShape shape;
+    shape.sentences = 10;
+    shape.duplicate_chance = 0.9;
+    const MotionTable table = test::random_table(shape, draw);
+    CostWeights weights = test::random_weights(draw);
+    if (seed % 4 == 0) {
+      weights.alpha2 = weights.alpha3 = 0.0;
+    }
+    const std::vector<SearchStep> steps = test::random_steps(table, 8, draw, 0.05, 0.2);
+    ASSERT_NO_FATAL_FAILURE(expect_same_as_judge(table, weights, steps));
+  }
+}
+
+TEST(ViterbiSearch, takes_costs_of_zero) {
+  Draw draw(7);
+  const MotionTable table = test::random_table({}, draw);
+  CostWeights weights;
+  weights.alpha4 = 0.5;
+  expect_same_as_judge(table, weights, test::random_steps(table, 6, draw));
+}
+
+TEST(ViterbiSearch, terms_of_a_path_add_up_to_its_cost) {
+  Draw draw(11);
+  test::TableShape shape;
+  shape.sentences = 20;
+  const MotionTable table = test::random_table(shape, draw);
+  for (int i = 0; i < 50; ++i) {
+    ViterbiSearch search(table, test::random_weights(draw));
+    expect_terms_add_up(search.solve(test::random_steps(table, 10, draw)).path);
+  }
+}
+
+TEST(ViterbiSearch, returns_a_recorded_sentence_for_its_own_transcript) {
+  Draw draw(13);
+  test::TableShape shape;
+  shape.sentences = 12;
+  shape.longest_sentence = 9;
+  shape.phonemes = 30;
+  const MotionTable table = test::random_table(shape, draw);
+  CostWeights weights{1.0, 0.2, 20.0, 0.4, 10.0, 10.0, 500.0};
+  ViterbiSearch search(table, weights);
+  for (NodeIndex start = 0; start < table.node_count(); ++start) {
+    if (table.nodes[static_cast<std::size_t>(start)].predecessor != kNoNode) {
+      continue;
+    }
+    std::vector<SearchStep> steps;
+    std::vector<NodeIndex> own;
+    for (NodeIndex node = start; node != kNoNode;
+         node = table.nodes[static_cast<std::size_t>(node)].successor) {
+      const MotionNode& info = table.nodes[static_cast<std::size_t>(node)];
+      steps.push_back({.phoneme = info.phoneme, .viseme = info.viseme, .emotion = info.emotion});
+      own.push_back(node);
+    }
+    const SearchResult result = search.solve(steps);
+    EXPECT_EQ(result.path.cost, 0.0);
+    if (own.size() >= 4) { // shorter ones may occur within others
+      EXPECT_EQ(result.path.nodes, own);
+    }
+  }
+}
+
+TEST(ViterbiSearch, an_empty_transcript_has_an_empty_path) {
+  Draw draw(17);
+  const MotionTable table = test::random_table({}, draw);
+  ViterbiSearch search(table, test::random_weights(draw));
+  const SearchResult result = search.solve({});
+  EXPECT_TRUE(result.path.nodes.empty());
+  EXPECT_EQ(result.path.cost, 0.0);
+}
+
+TEST(ViterbiSearch, looks_at_the_same_things_with_every_number_of_threads) {
+  Draw draw(19);
+  test::TableShape shape;
+  shape.sentences = 60;
+  const MotionTable table = test::random_table(shape, draw);
+  const CostWeights weights{1.0, 0.2, 20.0, 0.4, 1.0, 1.0, 50.0};
+  const std::vector<SearchStep> steps = test::random_steps(table, 20, draw);
+  const SearchResult one = ViterbiSearch(table, weights).solve(steps, {.threads = 1});
+  const SearchResult four = ViterbiSearch(table, weights).solve(steps, {.threads = 4});
+  EXPECT_EQ(one.counts.transitions, four.counts.transitions);
+  EXPECT_EQ(one.counts.bounds, four.counts.bounds);
+  EXPECT_EQ(one.counts.states, four.counts.states);
+  EXPECT_EQ(one.path.nodes, four.path.nodes);
+}
+
+TEST(ViterbiSearch, stops_when_asked) {
+  Draw draw(23);
+  const MotionTable table = test::random_table({}, draw);
+  ViterbiSearch search(table, test::random_weights(draw));
+  const std::atomic<bool> stop = true;
+  Progress progress;
+  progress.stop = &stop;
+  EXPECT_THROW(search.solve(test::random_steps(table, 5, draw), {}, progress), Interrupted);
+}
+
+TEST(ViterbiSearch, refuses_weights_out_of_range_and_an_empty_database) {
+  Draw draw(29);
+  const MotionTable table = test::random_table({}, draw);
+  CostWeights weights = test::random_weights(draw);
+  weights.alpha4 = 1.0;
+  EXPECT_THROW(ViterbiSearch(table, weights), InputError);
+  weights.alpha4 = 0.5;
+  weights.alpha3 = -1.0;
+  EXPECT_THROW(ViterbiSearch(table, weights), InputError);
+  MotionTable empty = table;
+  empty.nodes.clear();
+  EXPECT_THROW(ViterbiSearch(empty, test::random_weights(draw)), InputError);
+}
+
+} // namespace
+} // namespace phonomime
