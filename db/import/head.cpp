@@ -75,14 +75,15 @@ Eigen::Index interpolate_unknown(std::vector<HeadPose>& head, const std::vector<
 
 } // namespace
 
-HeadAnchor head_anchor(const Layout& layout) {
+HeadAnchor head_anchor(const Layout& layout, std::string_view where) {
   HeadAnchor anchor{.groups = layout.groups_in(Region::rigid), .gives_rotation = true};
   if (anchor.groups.size() >= 3) {
     return anchor;
   }
   const std::optional<int> reference = layout.find_group(layout.reference);
   if (!reference) {
-    throw InputError({.what = "layout does not say what the head pose is measured by",
+    throw InputError({.where = std::string(where),
+                      .what = "layout does not say what the head pose is measured by",
                       .expected = "at least three rigid groups or a reference marker",
                       .got = fmt::format("{} rigid, no reference", anchor.groups.size()),
                       .remedy = "Name a `reference` marker in the layout."});

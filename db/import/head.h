@@ -5,6 +5,7 @@
 #include "db/types/motion.h"
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace phonomime {
@@ -16,8 +17,9 @@ struct HeadAnchor {
   bool gives_rotation = false; // at least three groups
 };
 
-// Throws InputError where a marker layout has neither three rigid groups nor a reference marker.
-HeadAnchor head_anchor(const Layout& layout);
+// Throws InputError, with `where`, where a marker layout has neither three rigid groups nor a
+// reference marker.
+HeadAnchor head_anchor(const Layout& layout, std::string_view where = "layout");
 
 // E1-E2 with the determinant kept at +1 (Kabsch): the rotation R and translation t that make
 // |R * reference + t - points| least in squares. Both 3 by #points, same order, mm. Nothing where

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 set(importer_sources
-  channels.cpp gaps.cpp head.cpp nodes.cpp pca.cpp resample.cpp)
+  channels.cpp corpus.cpp corpus_path.cpp gaps.cpp head.cpp log_histogram.cpp nodes.cpp pca.cpp
+  prepare.cpp recording.cpp reference_pose.cpp report.cpp resample.cpp sentence_table.cpp suspect.cpp survey.cpp)
 set(importer_links OpenMP::OpenMP_CXX)

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "db/import/prepare.h"
+
+#include "db/import/nodes.h"
+#include "db/import/readers.h"
+#include "db/types/errors.h"
+#include "db/types/frame_times.h"
+#include "db/types/text.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace phonomime {
+
+namespace {
+
+// Frames of `rate_hz` that have no recorded frame on both sides.
+std::int64_t count_held(const SourceClock& clock, Eigen::Index recorded, double rate_hz,
+                        Eigen::Index count) {
+  const double last_s = clock.start_s + static_cast<double>(recorded - 1) / clock.rate_hz;
+  const auto before = std::min<std::int64_t>(count, first_frame_at(clock.start_s, rate_hz));
+  const auto to_last = std::min<std::int64_t>(count, frame_count_to(last_s, rate_hz));
+  return std::max<std::int64_t>(0, before) + (count - std::max<std::int64_t>(0, to_last));
+}
+
+// The spline must not swing beyond what was recorded where the ends mean something: a weight of 0
+// is nothing at all.
+void keep_recorded_range(FrameMatrixD& channels, const FrameMatrixD& recorded) {
+  const Eigen::RowVectorXd least = recorded.colwise().minCoeff();
+  const Eigen::RowVectorXd most = recorded.colwise().maxCoeff();
+  channels = channels.cwiseMax(least.replicate(channels.rows(), 1))
+                 .cwiseMin(most.replicate(channels.rows(), 1));
+}
+
+// A node with a gap stays out of the PCA whole: its other frames are marked too.
+void spread_gaps_over_nodes(ImportedSentence& sentence) {
+  for (ImportedNode& node : sentence.nodes) {
+    const auto first = sentence.frame_has_gap.begin() + node.first_frame;
+    const auto last = first + node.frame_count;
+    node.has_gap = std::find(first, last, std::uint8_t{1}) != last;
+    if (node.has_gap) {
+      std::fill(first, last, std::uint8_t{1});
+    }
+  }
+}
+
+HeadFree still_head(const RecordedSentence& recorded, const CorpusSentence& sentence,
+                    const PrepareContext& context) {
+  if (context.corpus.layout.kind == LayoutKind::weights) {
+    HeadFree free;
+    free.local = recorded.frames;
+    return free;
+  }
+  const HeadAnchor anchor = head_anchor(context.corpus.layout);
+  HeadFree free =
+      remove_head(recorded.frames, anchor, context.survey.references.at(sentence.speaker).pose);
+  if (!free.found) {
+    throw InputError(
+        {.where = sentence.where,
+         .what = fmt::format("no frame of sentence {} gives the head's pose", quoted(sentence.id)),
+         .expected = anchor.gives_rotation ? "a frame with three rigid markers, not on a line"
+                                           : "a frame with the reference marker"});
+  }
+  return free;
+}
+
+PreparedSentence prepare(std::size_t index, RecordedSentence& recorded,
+                         const PrepareContext& context) {
+  const CorpusSentence& sentence = context.corpus.sentences[index];
+  const int width = context.corpus.layout.channels_per_group();
+  const double recorded_hz = recorded.clock.rate_hz;
+  const HeadFree still = still_head(recorded, sentence, context);
+  GapFill filled = fill_gaps(still.local, width, recorded_hz, context.options.gap_limit_s);
+  const Eigen::Index count = first_frame_at(recorded.duration_s, context.rate_hz);
+
+  PreparedSentence result;
+  ImportedSentence& made = result.sentence;
+  made.speaker = sentence.speaker;
+  made.emotion = sentence.emotion;
+  made.id = sentence.id;
+  made.text = sentence.text;
+  made.audio = sentence.audio.string();
+  made.nodes = cut_into_nodes(recorded.rows, context.rate_hz, sentence.where);
+  FrameMatrixD channels = resample(filled.frames, recorded.clock, context.rate_hz, count);
+  if (context.corpus.layout.kind == LayoutKind::weights) {
+    keep_recorded_range(channels, filled.frames);
+  }
+  made.channels = channels.cast<float>();
+  made.frame_has_gap = resample_marks(filled.frame_has_gap, recorded.clock, context.rate_hz, count);
+  if (context.corpus.layout.kind == LayoutKind::markers) {
+    made.head = resample_head(still.head, recorded.clock, context.rate_hz, count);
+  }
+  spread_gaps_over_nodes(made);
+
+  SentenceAccount& account = result.account;
+  const FrameMatrixD speeds = group_speeds(still.local, width, recorded_hz);
+  account.suspects = mark_suspects(
+      made.nodes,
+      {.recorded = &recorded, .speeds = &speeds, .gaps = &filled.gaps, .rate_hz = context.rate_hz},
+      context.limits, context.corpus.layout);
+  account.sentence = index;
+  account.clock = recorded.clock;
+  account.recorded_frames = recorded.frames.rows();
+  account.frames = count;
+  account.nodes = static_cast<std::int64_t>(made.nodes.size());
+  for (const ImportedNode& node : made.nodes) {
+    account.in_nodes += node.frame_count;
+    account.nodes_with_gap += node.has_gap;
+  }
+  account.in_silence = account.frames - account.in_nodes;
+  account.held_frames = count_held(recorded.clock, recorded.frames.rows(), context.rate_hz, count);
+  account.gap_frames =
+      std::count(made.frame_has_gap.begin(), made.frame_has_gap.end(), std::uint8_t{1});
+  for (const Gap& gap : filled.gaps) {
+    account.missing += gap.frame_count;
+  }
+  account.interpolated_poses = still.interpolated;
+  account.gaps = std::move(filled.gaps);
+  made.rows = std::move(recorded.rows);
+  return result;
+}
+
+} // namespace
+
+PreparedRecording prepare_recording(const Recording& recording, const PrepareContext& context) {
+  const Corpus& corpus = context.corpus;
+  const LayoutMotion motion =
+      to_layout(read_motion(recording.motion), corpus.layout, recording.motion.string());
+  PreparedRecording result;
+  for (const std::size_t index : recording.sentences) {
+    const CorpusSentence& sentence = corpus.sentences[index];
+    RecordedSentence recorded =
+        cut_sentence(motion, read_alignment(sentence.alignment, corpus.alignment_options), sentence,
+                     corpus, context.options.tolerance_s);
+    try {
+      result.sentences.push_back(prepare(index, recorded, context));
+    } catch (const InputError& error) {
+      if (!context.options.skip_faulty) {
+        throw;
+      }
+      result.rejections.push_back({.sentence = index, .reason = error.what()});
+      result.rejected_frames += recorded.frames.rows();
+    }
+  }
+  return result;
+}
+
+} // namespace phonomime

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/import/corpus.h"
+#include "db/import/gaps.h"
+#include "db/import/recording.h"
+#include "db/import/survey.h"
+#include "db/import/suspect.h"
+#include "db/types/imported_sentence.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace phonomime {
+
+// What became of a sentence's frames and gaps. Times in recorded frames.
+struct SentenceAccount {
+  std::size_t sentence = 0; // into Corpus::sentences
+  SourceClock clock;        // of the recorded frames
+  std::int64_t recorded_frames = 0;
+  std::int64_t frames = 0; // at the database rate = in_nodes + in_silence
+  std::int64_t in_nodes = 0;
+  std::int64_t in_silence = 0;
+  std::int64_t held_frames = 0; // past the last recorded frame (or before the first)
+  std::int64_t gap_frames = 0;  // out of the PCA: in a marked gap, or in a node with one
+  std::int64_t nodes = 0;
+  std::int64_t nodes_with_gap = 0;
+  std::int64_t missing = 0;            // group-frames that the recording lacks
+  std::int64_t interpolated_poses = 0; // frames whose head pose is from their neighbours
+  std::vector<Gap> gaps;
+  std::array<std::int64_t, kSuspectReasonNames.size()> suspects{}; // nodes by reason
+};
+
+struct PreparedSentence {
+  ImportedSentence sentence;
+  SentenceAccount account;
+};
+
+struct PreparedRecording {
+  std::vector<PreparedSentence> sentences;
+  std::vector<Rejection> rejections; // where faulty sentences are to be skipped
+  std::int64_t rejected_frames = 0;  // recorded frames of those
+};
+
+// What is the same for every sentence.
+struct PrepareContext {
+  const Corpus& corpus;
+  const Survey& survey;
+  const SuspectLimits& limits;
+  const RecordingOptions& options;
+  double rate_hz = 0.0; // of the database
+};
+
+// Reads one motion file and prepares each of its sentences: head motion off, gaps filled or marked
+// (without head motion, so that a filled marker follows the face), resampled, cut into nodes,
+// marked where suspect. Throws InputError (unless faulty sentences are to be skipped) and IoError.
+PreparedRecording prepare_recording(const Recording& recording, const PrepareContext& context);
+
+} // namespace phonomime
