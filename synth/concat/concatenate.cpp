@@ -20,10 +20,9 @@ constexpr double kSameTime_s = 1e-6;
 
 // A step whose node is seen, with the frames it has.
 struct ShownNode {
-  std::size_t step = 0;
   NodeIndex node = kNoNode;
   FrameRange frames;
-  bool captured = false; // as recorded after the shown node before it
+  bool captured = false; // as recorded after the node before it
 };
 
 bool shows_node(const ConcatStep& step) {
@@ -79,8 +78,7 @@ std::vector<ShownNode> share_out_frames(std::span<const ConcatStep> steps, doubl
   std::vector<ShownNode> shown;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (shows_node(steps[i]) && ranges[i].count > 0) {
-      const bool follows = !shown.empty() && shown.back().step + 1 == i;
-      shown.push_back({i, steps[i].node, ranges[i], follows && steps[i].captured});
+      shown.push_back({steps[i].node, ranges[i], steps[i].captured});
     }
   }
   return shown;
