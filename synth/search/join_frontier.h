@@ -71,4 +71,24 @@ private:
   std::vector<std::int32_t> place_;   // per node of the table: into candidates_, or -1
 };
 
+// Calls work(i, counts) for i in [0, size) over threads and adds up the counts. `work` writes only
+// what belongs to its i, so that the result does not depend on the number of threads; it must not
+// throw.
+template <typename Work>
+void for_each_in_parallel(std::size_t size, JoinFrontier::Counts& counts, const Work& work) {
+  constexpr std::size_t kWorthThreads = 48;
+  std::int64_t bounds = 0;
+  std::int64_t transitions = 0;
+#pragma omp parallel for schedule(dynamic, 16) reduction(+ : bounds, transitions)                  \
+    if (size > kWorthThreads)
+  for (std::size_t i = 0; i < size; ++i) {
+    JoinFrontier::Counts own;
+    work(i, own);
+    bounds += own.bounds;
+    transitions += own.transitions;
+  }
+  counts.bounds += bounds;
+  counts.transitions += transitions;
+}
+
 } // namespace phonomime

@@ -27,14 +27,9 @@ RelaxedBounds relaxed_bounds(std::span<const StepNodes> nodes, const JoinCost& c
     const std::vector<NodeIndex>& core = nodes[t].core;
     std::vector<double>& to_go = bounds.core_to_go[t];
     to_go.resize(core.size());
-    std::int64_t bounds_seen = 0;
-#pragma omp parallel for schedule(dynamic, 16) reduction(+ : bounds_seen)
-    for (std::size_t i = 0; i < core.size(); ++i) {
-      JoinFrontier::Counts own;
+    for_each_in_parallel(core.size(), counts, [&](std::size_t i, JoinFrontier::Counts& own) {
       to_go[i] = std::min(through_rest, frontier.bound_join(core[i], through_rest, own));
-      bounds_seen += own.bounds;
-    }
-    counts.bounds += bounds_seen;
+    });
   }
   return bounds;
 }

@@ -25,17 +25,9 @@ std::vector<double> costs_to_go(const LatticeInput& input, const StepStates& sta
   }
   const JoinFrontier frontier(JoinFrontier::Side::later, input.cost, input.bound, nodes, ahead);
   std::vector<double> to_go(states.nodes.size());
-  std::int64_t bounds_seen = 0;
-  std::int64_t transitions = 0;
-#pragma omp parallel for schedule(dynamic, 16) reduction(+ : bounds_seen, transitions)
-  for (std::size_t i = 0; i < to_go.size(); ++i) {
-    JoinFrontier::Counts own;
+  for_each_in_parallel(to_go.size(), counts, [&](std::size_t i, JoinFrontier::Counts& own) {
     to_go[i] = frontier.best_join(states.nodes[i], 0.0, budget - states.cost[i], own).value;
-    bounds_seen += own.bounds;
-    transitions += own.transitions;
-  }
-  counts.bounds += bounds_seen;
-  counts.transitions += transitions;
+  });
   return to_go;
 }
 

@@ -78,19 +78,10 @@ StepStates next_states(const LatticeInput& input, const StepStates& before,
   const JoinFrontier frontier(JoinFrontier::Side::earlier, input.cost, input.bound, before.nodes,
                               before.cost);
   std::vector<JoinFrontier::Best> best(candidates.size());
-  std::int64_t bounds_seen = 0;
-  std::int64_t transitions = 0;
-#pragma omp parallel for schedule(dynamic, 16) reduction(+ : bounds_seen, transitions)             \
-    if (candidates.size() > kWorthThreads)
-  for (std::size_t j = 0; j < candidates.size(); ++j) {
-    JoinFrontier::Counts own;
+  for_each_in_parallel(candidates.size(), counts, [&](std::size_t j, JoinFrontier::Counts& own) {
     best[j] = frontier.best_join(candidates[j].node, candidates[j].penalty,
                                  budget - candidates[j].to_go, own);
-    bounds_seen += own.bounds;
-    transitions += own.transitions;
-  }
-  counts.bounds += bounds_seen;
-  counts.transitions += transitions;
+  });
   StepStates states;
   for (std::size_t j = 0; j < candidates.size(); ++j) {
     if (best[j].node != kNoNode) {
@@ -149,15 +140,11 @@ Lattice beam_lattice(const LatticeInput& input, std::size_t width, JoinFrontier:
     } else {
       const JoinFrontier frontier(JoinFrontier::Side::earlier, input.cost, input.bound,
                                   lattice.back().nodes, lattice.back().cost);
-      std::int64_t bounds_seen = 0;
-#pragma omp parallel for schedule(dynamic, 16) reduction(+ : bounds_seen)
-      for (std::size_t j = 0; j < candidates.size(); ++j) {
-        JoinFrontier::Counts own;
-        estimate[j] = frontier.bound_join(candidates[j].node, kInfinity, own) +
-                      candidates[j].penalty + candidates[j].to_go;
-        bounds_seen += own.bounds;
-      }
-      counts.bounds += bounds_seen;
+      for_each_in_parallel(candidates.size(), counts,
+                           [&](std::size_t j, JoinFrontier::Counts& own) {
+                             estimate[j] = frontier.bound_join(candidates[j].node, kInfinity, own) +
+                                           candidates[j].penalty + candidates[j].to_go;
+                           });
     }
     keep_most_promising(candidates, estimate, width);
     ensure_nodes(input, candidates);
