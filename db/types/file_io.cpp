@@ -3,11 +3,14 @@
 
 #include "db/types/errors.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <system_error>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,6 +45,34 @@ void write_all(int fd, std::string_view bytes, const std::filesystem::path& path
     }
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
+}
+
+// Renaming onto a device would put a file in the device's place.
+void require_replaceable(const std::filesystem::path& target) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(target, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw IoError({.where = target.string(),
+                   .what = std::filesystem::is_directory(status) ? "is a folder" : "is a device",
+                   .expected = "the path of a file"});
+  }
+}
+
+// A new file in the target's folder, with the permissions that the user's mask allows.
+std::pair<int, std::filesystem::path> create_beside(const std::filesystem::path& target) {
+  constexpr int kAttempts = 1000;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    std::filesystem::path temporary = target;
+    temporary += fmt::format(".part-{}-{}", ::getpid(), attempt);
+    const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd >= 0) {
+      return {fd, temporary};
+    }
+    if (errno != EEXIST) {
+      break;
+    }
+  }
+  throw_io(target, "cannot be created", errno);
 }
 
 } // namespace
@@ -90,25 +121,20 @@ OutputFiles::~OutputFiles() {
 }
 
 void OutputFiles::stage(const std::filesystem::path& target, std::string_view bytes) {
-  if (std::filesystem::is_directory(target)) {
-    throw IoError({.where = target.string(), .what = "is a folder", .expected = "a file's path"});
-  }
-  std::string temporary = target.string() + ".part-XXXXXX";
-  const int fd = ::mkostemp(temporary.data(), O_CLOEXEC);
-  if (fd < 0) {
-    throw_io(target, "cannot be created", errno);
-  }
+  require_replaceable(target);
+  const auto [fd, temporary] = create_beside(target);
   const FileDescriptor file(fd);
   staged_.push_back({temporary, target});
   write_all(fd, bytes, target);
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  if (::fchmod(fd, 0666 & ~mask) != 0 || ::fsync(fd) != 0) {
+  if (::fsync(fd) != 0) {
     throw_io(target, "cannot be written", errno);
   }
 }
 
 void OutputFiles::commit() {
+  for (const Staged& file : staged_) {
+    require_replaceable(file.target);
+  }
   while (!staged_.empty()) {
     if (::rename(staged_.front().temporary.c_str(), staged_.front().target.c_str()) != 0) {
       throw_io(staged_.front().target, "cannot be put in place", errno);

@@ -9,8 +9,8 @@
 
 namespace phonomime {
 
-// The whole file. Throws IoError where it cannot be read, InputError where it is larger than
-// `largest_bytes` or is not a regular file.
+// The whole file (or pipe). Throws IoError where it cannot be read, InputError where it is larger
+// than `largest_bytes` or is a folder.
 std::string read_file(const std::filesystem::path& path, std::uintmax_t largest_bytes = 1u << 30);
 
 // Files that appear together and whole, or not at all: each is written to a temporary file beside
@@ -22,7 +22,8 @@ public:
   OutputFiles& operator=(const OutputFiles&) = delete;
   ~OutputFiles();
 
-  // Writes `bytes` beside `target` (synchronised to disk). Throws IoError.
+  // Writes `bytes` beside `target` (synchronised to disk). Throws IoError; also where the target is
+  // a folder or a device.
   void stage(const std::filesystem::path& target, std::string_view bytes);
 
   // Renames every staged file onto its target, in the order staged. Throws IoError.
@@ -39,4 +40,4 @@ private:
 // One file, whole or not at all. Throws IoError.
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
-}  // namespace phonomime
+} // namespace phonomime

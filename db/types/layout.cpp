@@ -163,7 +163,8 @@ Layout parse_layout(std::string_view json_text, std::string_view where) {
   if (!layout.reference.empty()) {
     require_group(layout, layout.reference, "$.reference", where);
   }
-  for (const auto& [landmark, group] : value.value("landmarks", json::object()).items()) {
+  const json landmarks = value.value("landmarks", json::object());
+  for (const auto& [landmark, group] : landmarks.items()) {
     layout.landmarks[landmark] = group.get<std::string>();
     require_group(layout, layout.landmarks[landmark], "$.landmarks." + landmark, where);
   }
