@@ -103,7 +103,7 @@ void FaceFields::move_lips(const FaceState& state, const Mouth& mouth, MarkerPos
         RowVector3d(x, 0.85 * upper_y + pout - shut, 0.85 * z - 0.3 * shut);
     pose.row(marker_index(column.lower_inner)) += RowVector3d(x, lower_y, lower_z);
     pose.row(marker_index(column.lower_outer)) +=
-        RowVector3d(x, lower_y - pout + shut + middle * (0.25 * mouth.tuck + chin_push),
+        RowVector3d(x, lower_y - pout + shut + middle * (0.5 * mouth.tuck + chin_push),
                     0.85 * z + middle * (mouth.lip_jaw_z - 0.5 * mouth.tuck) - 0.3 * shut);
   }
   for (const int corner : {kInnerCornerRight, kOuterCornerRight})
