@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/pipeline/explain.h"
+
+#include "db/types/json_file.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace phonomime {
+
+namespace {
+
+std::string join_word(const nlohmann::json& row, bool first) {
+  if (row["node"].is_null()) {
+    return "rest";
+  }
+  if (row["captured"].get<bool>()) {
+    return "captured";
+  }
+  return first ? "start" : "joined";
+}
+
+std::string runners_up_text(const nlohmann::json& row) {
+  std::string text;
+  for (const nlohmann::json& other : row["runners_up"]) {
+    text += fmt::format("{}{} (+{:.0f})", text.empty() ? "" : ", ",
+                        other["node"].get<std::string>(), other["delta"].get<double>());
+  }
+  return text;
+}
+
+std::size_t longest_key(const nlohmann::json& path) {
+  std::size_t longest = 4;
+  for (const nlohmann::json& row : path) {
+    if (row["node"].is_string()) {
+      longest = std::max(longest, row["node"].get_ref<const std::string&>().size());
+    }
+  }
+  return longest;
+}
+
+std::string totals(const nlohmann::json& result) {
+  double observation = 0.0, emotion = 0.0, transition = 0.0;
+  int joins = 0, captured = 0;
+  bool first = true;
+  for (const nlohmann::json& row : result["path"]) {
+    observation += row["cost"]["observation"].get<double>();
+    emotion += row["cost"]["emotion"].get<double>();
+    transition += row["cost"]["transition"].get<double>();
+    if (!row["node"].is_null()) {
+      joins += first ? 0 : 1;
+      captured += row["captured"].get<bool>() ? 1 : 0;
+      first = false;
+    }
+  }
+  return fmt::format("cost {:.1f} = observation {:.1f} + emotion {:.1f} + transition {:.1f}; {} of "
+                     "{} joins as recorded\n",
+                     result["cost"].get<double>(), observation, emotion, transition, captured,
+                     joins);
+}
+
+} // namespace
+
+std::string explain_result(std::string_view json_text, std::string_view where) {
+  const nlohmann::json result = parse_json_as("result", json_text, where);
+  const nlohmann::json& path = result["path"];
+  const std::size_t width = longest_key(path);
+  std::string text = totals(result);
+  text +=
+      fmt::format("{:>3}  {:>7}  {:>7}  {:<4}  {:<10}  {:<{}}  {:<8}  {:>8}  {:>8}  {:>10}  {}\n",
+                  "row", "start", "end", "ph", "emotion", "node", width, "join", "phoneme",
+                  "emotion", "transition", "runners-up (what they would cost more)");
+  bool first = true;
+  for (const nlohmann::json& row : path) {
+    const bool has_node = row["node"].is_string();
+    const std::string node = has_node ? row["node"].get<std::string>() : "-";
+    text +=
+        fmt::format("{:>3}  {:>7.3f}  {:>7.3f}  {:<4}  {:<10}  {:<{}}  {:<8}  {:>8.1f}  {:>8.1f}  "
+                    "{:>10.1f}  {}",
+                    row["index"].get<long>(), row["start"].get<double>(), row["end"].get<double>(),
+                    row["phoneme"].get<std::string>(), row["emotion"].get<std::string>(), node,
+                    width, join_word(row, first), row["cost"]["observation"].get<double>(),
+                    row["cost"]["emotion"].get<double>(), row["cost"]["transition"].get<double>(),
+                    runners_up_text(row));
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += row["constrained"].get<bool>() ? "  [use]\n" : "\n";
+    first = first && !has_node;
+  }
+  for (const nlohmann::json& warning : result["warnings"]) {
+    text += "warning: " + warning.get<std::string>() + "\n";
+  }
+  return text;
+}
+
+} // namespace phonomime

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/pipeline/result_json.h"
+
+#include "synth/pipeline/closures.h"
+
+#include <nlohmann/json.hpp>
+
+namespace phonomime {
+
+namespace {
+
+nlohmann::ordered_json row_to_json(const MotionTable& table, const PathRow& row,
+                                   std::size_t index) {
+  nlohmann::ordered_json json;
+  json["index"] = index;
+  json["phoneme"] = row.phoneme.phoneme.name;
+  json["start"] = row.phoneme.start_s;
+  json["end"] = row.phoneme.end_s;
+  json["emotion"] = row.emotion;
+  json["node"] = nullptr;
+  json["captured"] = row.captured;
+  json["constrained"] = row.constrained;
+  if (row.node != kNoNode) {
+    const MotionNode& node = table.nodes[static_cast<std::size_t>(row.node)];
+    json["node"] = table.key(row.node);
+    json["recorded"] = {{"phoneme", table.phonemes[static_cast<std::size_t>(node.phoneme)].name},
+                        {"emotion", table.emotions[static_cast<std::size_t>(node.emotion)]},
+                        {"frames", node.frame_count}};
+    if (const std::optional<bool> closed = recorded_closed(table, row.node)) {
+      json["recorded"]["closed"] = *closed;
+    }
+  }
+  json["cost"] = {{"observation", row.cost.observation},
+                  {"emotion", row.cost.emotion},
+                  {"transition", row.cost.transition}};
+  json["runners_up"] = nlohmann::ordered_json::array();
+  for (const RunnerUp& other : row.runners_up) {
+    json["runners_up"].push_back({{"node", table.key(other.node)}, {"delta", other.delta}});
+  }
+  return json;
+}
+
+} // namespace
+
+nlohmann::ordered_json result_to_json(const MotionTable& table, const SynthesisResult& result) {
+  nlohmann::ordered_json json;
+  json["format"] = "phonomime-result";
+  json["version"] = 1;
+  json["speaker"] = table.speaker;
+  json["synthetic"] = table.synthetic;
+  json["duration"] = result.end_s;
+  json["fps"] = result.output.rate_hz;
+  json["frames"] = result.output.coefficients.rows();
+  json["cost"] = result.cost;
+  json["path"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < result.rows.size(); ++i) {
+    json["path"].push_back(row_to_json(table, result.rows[i], i));
+  }
+  json["search"] = {{"nodes", table.nodes.size()},
+                    {"seconds", result.search_seconds},
+                    {"transitions", result.counts.transitions},
+                    {"bounds", result.counts.bounds},
+                    {"states", result.counts.states}};
+  json["warnings"] = result.warnings;
+  return json;
+}
+
+} // namespace phonomime

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/emotion_track.h"
+#include "db/types/motion_table.h"
+#include "db/types/node_constraint.h"
+#include "db/types/progress.h"
+#include "synth/concat/concatenate.h"
+#include "synth/search/viterbi_search.h"
+
+#include <string>
+#include <vector>
+
+namespace phonomime {
+
+// What is to be said, how, and with which recordings.
+struct SynthesisInput {
+  std::vector<TimedPhoneme> transcript;  // in order of time, from 0 on, without holes
+  std::vector<EmotionModifier> emotions; // one for each row of the transcript
+  std::vector<NodeConstraint> constraints;
+  CostWeights weights;
+  SearchOptions search;
+  ConcatOptions concat;
+  double fps = 30.0; // of SynthesisResult::output
+};
+
+// One row of the transcript in the result.
+struct PathRow {
+  TimedPhoneme phoneme;
+  std::string emotion;      // asked for
+  NodeIndex node = kNoNode; // none for /pau/ at either end
+  bool captured = false;    // joined as recorded to the row before (DESIGN 11)
+  bool constrained = false; // by a `use`
+  StepCost cost;
+  std::vector<RunnerUp> runners_up;
+};
+
+struct SynthesisResult {
+  double cost = 0.0; // E4
+  std::vector<PathRow> rows;
+  CoefficientMotion motion; // at the database's rate
+  CoefficientMotion output; // at SynthesisInput::fps
+  std::vector<std::string> warnings;
+  SearchCounts counts;
+  double search_seconds = 0.0; // wall clock
+  double end_s = 0.0;          // of the transcript
+};
+
+// The recipe: transcript -> search -> concatenate -> resample. `search` keeps what it knows of the
+// table between calls. Throws InputError (see make_transcript_steps) and Interrupted.
+SynthesisResult synthesize(const MotionTable& table, ViterbiSearch& search,
+                           const SynthesisInput& input, const Progress& progress = {});
+
+} // namespace phonomime

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/store/motion_database.h"
+#include "tools/app/import_corpus.h"
+#include "tools/app/synth.h"
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+namespace phonomime {
+
+// What the words of a call ask for. One struct for each verb, filled by parse_arguments.
+struct CommonArguments {
+  bool json = false;
+  bool quiet = false;
+};
+
+struct ImportArguments {
+  ImportOptions options;
+};
+
+struct InfoArguments {
+  std::filesystem::path database;
+};
+
+struct NodesArguments {
+  std::filesystem::path database;
+  NodeFilter filter;
+  long limit = 0; // 0 = all
+};
+
+struct SynthArguments {
+  SynthOptions options;
+};
+
+struct ExplainArguments {
+  std::filesystem::path result;
+};
+
+// What `--help` and `--version` print.
+struct PrintArguments {
+  std::string text;
+};
+
+struct Arguments {
+  CommonArguments common;
+  std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SynthArguments,
+               ExplainArguments>
+      verb;
+};
+
+// Throws UsageError.
+Arguments parse_arguments(int argc, const char* const* argv);
+
+} // namespace phonomime

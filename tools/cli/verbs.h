@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "tools/cli/arguments.h"
+
+#include "db/types/progress.h"
+
+namespace phonomime {
+
+// Each does one verb: data to stdout, messages to stderr. They throw phonomime errors.
+void run_verb(const ImportArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const InfoArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const NodesArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const SynthArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const ExplainArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+
+} // namespace phonomime
