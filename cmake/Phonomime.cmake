@@ -49,6 +49,8 @@ endfunction()
 
 # phonomime_test(NAME SOURCES a_test.cpp ... [LINKS lib ...] [LABELS l ...]): one GoogleTest program.
 # ctest runs it whole; a test that needs ../shared asks tests/support for it and skips itself.
+# Labels: asan, tsan (the sanitizer under which tools/check runs it). Target check_<label> builds all
+# that the tests of a label need.
 function(phonomime_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
@@ -56,4 +58,15 @@ function(phonomime_test name)
     ${ARG_LINKS})
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 900)
+  foreach(label IN LISTS ARG_LABELS)
+    phonomime_check_needs(${label} ${name})
+  endforeach()
+endfunction()
+
+# phonomime_check_needs(LABEL target ...): tests of the label that are no phonomime_test need these.
+function(phonomime_check_needs label)
+  if(NOT TARGET check_${label})
+    add_custom_target(check_${label})
+  endif()
+  add_dependencies(check_${label} ${ARGN})
 endfunction()
