@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plain_recursion.h"
-#include "random_tables.h"
+#include "tests/synth/search/plain_recursion.h"
+#include "tests/synth/search/random_tables.h"
 
 #include "synth/search/join_bound.h"
 #include "synth/search/join_cost.h"

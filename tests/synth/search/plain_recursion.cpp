@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plain_recursion.h"
+#include "tests/synth/search/plain_recursion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "random_tables.h"
+#include "tests/synth/search/random_tables.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "plain_recursion.h"
-#include "random_tables.h"
+#include "tests/synth/search/plain_recursion.h"
+#include "tests/synth/search/random_tables.h"
 
 #include "db/types/errors.h"
 #include "synth/search/viterbi_search.h"
