@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -51,8 +52,10 @@ std::string node_key(const SentenceInfo& sentence, std::int32_t order) {
 }
 
 // Nodes of one sentence: they lie together, in order of `order`.
-auto nodes_of(const MotionTable& table, std::int32_t sentence) {
-  return std::ranges::equal_range(table.nodes, sentence, {}, &MotionNode::sentence);
+std::span<const MotionNode> nodes_of(const MotionTable& table, std::int32_t sentence) {
+  const auto first = std::ranges::lower_bound(table.nodes, sentence, {}, &MotionNode::sentence);
+  const auto last = std::ranges::upper_bound(table.nodes, sentence, {}, &MotionNode::sentence);
+  return {first, last};
 }
 
 // Sentences whose key may end with `typed`. Ids are compared before any key is built.
@@ -130,7 +133,7 @@ NodeIndex MotionTable::find_node(std::string_view typed_text, std::string_view w
   const std::vector<std::int32_t> matches = matching_sentences(*this, typed->sentence);
   std::vector<NodeIndex> found;
   for (const std::int32_t sentence : matches) {
-    const auto in_sentence = nodes_of(*this, sentence);
+    const std::span<const MotionNode> in_sentence = nodes_of(*this, sentence);
     const auto node = std::ranges::lower_bound(in_sentence, typed->order, {}, &MotionNode::order);
     if (node != in_sentence.end() && node->order == typed->order) {
       found.push_back(static_cast<NodeIndex>(&*node - nodes.data()));
