@@ -45,7 +45,7 @@ std::string timecode(double time_s) {
 }
 
 constexpr std::span<const std::string_view> kLiveLinkShapeColumns =
-    std::span(kLiveLinkColumns).first(kLiveLinkShapes);
+    std::span(kLiveLinkColumns).first(kArkitShapeCount);
 
 } // namespace
 

@@ -90,6 +90,9 @@ void add_import(CLI::App& app, Words& words) {
   verb->add_option("--tolerance", options.recordings.tolerance_s,
                    "How far an alignment may run past its motion, in seconds")
       ->capture_default_str();
+  verb->add_flag("--skip-faulty", options.recordings.skip_faulty,
+                 "Leave out sentences whose files are faulty (the report names them) instead of "
+                 "refusing the corpus");
   verb->add_option("--threads", options.recordings.threads, "Threads (0: one for each core)")
       ->check(CLI::Range(0, 256));
 }

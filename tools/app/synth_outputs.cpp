@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/app/synth_outputs.h"
+
+#include "db/types/errors.h"
+#include "db/types/file_io.h"
+#include "db/types/text.h"
+#include "synth/export/glb.h"
+#include "synth/export/motion_csv.h"
+#include "synth/export/player_document.h"
+#include "synth/pipeline/closures.h"
+#include "synth/pipeline/explain.h"
+#include "synth/retarget/face_source.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace phonomime {
+
+namespace {
+
+enum class OutputKind { csv, glb, html, json, text };
+
+OutputKind output_kind(const std::filesystem::path& path) {
+  const std::string suffix = to_lower(path.extension().string());
+  if (suffix == ".csv") {
+    return OutputKind::csv;
+  }
+  if (suffix == ".glb") {
+    return OutputKind::glb;
+  }
+  if (suffix == ".html") {
+    return OutputKind::html;
+  }
+  if (suffix == ".json") {
+    return OutputKind::json;
+  }
+  if (suffix == ".txt") {
+    return OutputKind::text;
+  }
+  throw UsageError({.where = path.string(),
+                    .what = "the suffix names no kind of output",
+                    .expected = ".csv, .glb, .html, .json or .txt",
+                    .got = quoted(suffix)});
+}
+
+bool shows_face(const std::filesystem::path& path) {
+  const OutputKind kind = output_kind(path);
+  return kind == OutputKind::glb || kind == OutputKind::html;
+}
+
+void check_range(const char* option, double value, double least, double most) {
+  if (!(value >= least && value <= most)) {
+    throw UsageError(
+        {.where = option,
+         .what = "is out of range",
+         .expected = fmt::format("{} to {}", format_number(least), format_number(most)),
+         .got = format_number(value)});
+  }
+}
+
+// E figure 5 colours the four emotions; black is for neutral there, grey on a dark page here.
+std::string emotion_color(const std::string& emotion, std::int32_t index) {
+  if (emotion == "neutral") {
+    return "#8a8f98";
+  }
+  if (emotion == "anger") {
+    return "#d64545";
+  }
+  if (emotion == "sadness") {
+    return "#3f9d5f";
+  }
+  if (emotion == "happiness") {
+    return "#4a7fe0";
+  }
+  constexpr std::array<const char*, 6> kOthers = {"#c98a2b", "#8e5bd0", "#2ba3a3",
+                                                  "#b84f93", "#7d9a2e", "#a0693e"};
+  return kOthers[static_cast<std::size_t>(index) % kOthers.size()];
+}
+
+std::vector<PlayerDocument::Emotion> emotion_spans(const MotionTable& table,
+                                                   const std::vector<PathRow>& rows) {
+  std::vector<PlayerDocument::Emotion> spans;
+  for (const PathRow& row : rows) {
+    if (!spans.empty() && spans.back().emotion == row.emotion) {
+      spans.back().end_s = row.phoneme.end_s;
+      continue;
+    }
+    const std::string color =
+        emotion_color(row.emotion, table.find_emotion(row.emotion).value_or(0));
+    spans.push_back({row.phoneme.start_s, row.phoneme.end_s, row.emotion, color});
+  }
+  return spans;
+}
+
+std::string read_wav(const std::filesystem::path& path) {
+  std::string bytes = read_file(path);
+  if (bytes.size() < 44 || !bytes.starts_with("RIFF") || bytes.compare(8, 4, "WAVE") != 0) {
+    throw InputError({.where = path.string(),
+                      .what = "is not a WAV file",
+                      .expected = "RIFF/WAVE sound",
+                      .remedy = "Convert it, for instance with `ffmpeg -i IN OUT.wav`."});
+  }
+  return bytes;
+}
+
+std::string face_note(const MarkerFace& face, const PcaModel& pca) {
+  std::string note =
+      fmt::format("face {}: {} vertices", face.mesh().source, face.mesh().skin_vertex_count());
+  if (face.report().automatic_markers) {
+    note += ", markers placed by their numbers";
+  }
+  if (!face.report().missing_markers.empty()) {
+    note += fmt::format(", without markers {}", fmt::join(face.report().missing_markers, " "));
+  }
+  if (const std::optional<double> share = face.aperture_share(pca)) {
+    note += fmt::format(", keeps {:.0f} % of the lips' opening", 100.0 * *share);
+  }
+  return note;
+}
+
+} // namespace
+
+void check_synth_options(const SynthOptions& options) {
+  check_range("--fps", options.fps, 1.0, 1000.0);
+  check_range("--smoothing", options.smoothing_half_window, 0, 100);
+  check_range("--runners-up", options.runners_up, 0, 100);
+  const bool needs_face = std::ranges::any_of(options.outputs, shows_face);
+  if (needs_face && options.face.empty()) {
+    throw UsageError({.what = "a .glb or .html output needs a face",
+                      .remedy = "Name a mesh with --face: an .obj or .glb file, or the folder "
+                                "that holds it."});
+  }
+}
+
+SynthOutputs::SynthOutputs(const SynthOptions& options, const MotionTable& table,
+                           std::vector<std::string>& notes)
+    : options_(options), table_(table) {
+  if (std::ranges::any_of(options.outputs, shows_face)) {
+    if (table.layout.kind != LayoutKind::markers) {
+      throw InputError({.where = options.database.string(),
+                        .what = "a database of blendshape weights cannot drive a mesh yet",
+                        .remedy = "Write a .csv and apply it to the face's own shapes."});
+    }
+    face_.emplace(read_face(options.face, table.layout), table.layout, table.reference_pose);
+    notes.push_back(face_note(*face_, table.pca));
+  }
+  if (!options.audio.empty()) {
+    wav_ = read_wav(options.audio);
+  }
+}
+
+std::vector<std::filesystem::path> SynthOutputs::write(const SynthesisResult& result,
+                                                       const std::string& result_json) {
+  OutputFiles files;
+  for (const std::filesystem::path& path : options_.outputs) {
+    switch (output_kind(path)) {
+    case OutputKind::csv:
+      files.stage(path, motion_text(result));
+      break;
+    case OutputKind::glb:
+      files.stage(path, glb(result));
+      break;
+    case OutputKind::html:
+      files.stage(path, html(result));
+      break;
+    case OutputKind::json:
+      files.stage(path, result_json);
+      break;
+    case OutputKind::text:
+      files.stage(path, explain_result(result_json, "result"));
+      break;
+    }
+  }
+  files.commit();
+  return options_.outputs;
+}
+
+std::string SynthOutputs::motion_text(const SynthesisResult& result) const {
+  if (table_.layout.kind == LayoutKind::markers) {
+    return marker_csv(table_.layout, table_.pca, result.output, options_.head.has_value());
+  }
+  return is_live_link_layout(table_.layout)
+             ? live_link_csv(table_.layout, table_.pca, result.output)
+             : weight_csv(table_.layout, table_.pca, result.output);
+}
+
+const std::string& SynthOutputs::glb(const SynthesisResult& result) {
+  if (glb_.empty()) {
+    glb_ = marker_face_glb(face_->mesh(), face_->morphs(table_.pca), result.output,
+                           {.title = options_.transcript.stem().string(),
+                            .credits = {"Motion of " + table_.speaker},
+                            .synthetic = table_.synthetic});
+  }
+  return glb_;
+}
+
+std::string SynthOutputs::html(const SynthesisResult& result) {
+  PlayerDocument document;
+  document.title = options_.transcript.stem().string();
+  document.duration_s = result.end_s;
+  document.fps = result.output.rate_hz;
+  document.glb = glb(result);
+  document.wav = wav_;
+  for (const PathRow& row : result.rows) {
+    document.phonemes.push_back({.phoneme = row.phoneme.phoneme.name,
+                                 .start_s = row.phoneme.start_s,
+                                 .end_s = row.phoneme.end_s,
+                                 .node = row.node == kNoNode ? "" : table_.key(row.node),
+                                 .captured = row.captured,
+                                 .observation_cost = row.cost.observation,
+                                 .emotion_cost = row.cost.emotion,
+                                 .transition_cost = row.cost.transition,
+                                 .closure = asks_for_closure(row.phoneme.phoneme)});
+  }
+  document.emotions = emotion_spans(table_, result.rows);
+  for (const auto& [name, vertex] : face_->landmarks()) {
+    document.landmarks[name] = {.mesh = 0, .primitive = 0, .vertex = vertex};
+  }
+  document.credits = {"Motion of " + table_.speaker};
+  document.synthetic = table_.synthetic;
+  return player_html(document);
+}
+
+} // namespace phonomime

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/motion_table.h"
+#include "synth/pipeline/synthesize.h"
+#include "synth/retarget/marker_face.h"
+#include "tools/app/synth.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace phonomime {
+
+// What can be said of a request without opening anything: ranges, output kinds, a face where one is
+// needed. Throws UsageError.
+void check_synth_options(const SynthOptions& options);
+
+// The outputs of one synthesis. Everything that they need is read first, so that a missing face or
+// sound is known before the search.
+class SynthOutputs {
+public:
+  // `notes` gets a line for each choice made for the user. Throws InputError and IoError.
+  SynthOutputs(const SynthOptions& options, const MotionTable& table,
+               std::vector<std::string>& notes);
+
+  // Writes all outputs or none, and returns their paths. Throws IoError.
+  std::vector<std::filesystem::path> write(const SynthesisResult& result,
+                                           const std::string& result_json);
+
+private:
+  std::string motion_text(const SynthesisResult& result) const;
+  const std::string& glb(const SynthesisResult& result);
+  std::string html(const SynthesisResult& result);
+
+  const SynthOptions& options_;
+  const MotionTable& table_;
+  std::optional<MarkerFace> face_;
+  std::string wav_;
+  std::string glb_; // made once for all outputs that hold it
+};
+
+} // namespace phonomime
