@@ -49,6 +49,13 @@ TEST(AssignFrames, TakesFromTheLongerNeighbour) {
   EXPECT_EQ(counts({{0.0, 0.101}, {0.101, 0.109}, {0.109, 0.21}}), (Counts{10, 1, 10}));
 }
 
+TEST(AssignFrames, TakesFromTheNearestRatherThanTheLongest) {
+  EXPECT_EQ(counts({{0.0, 0.021}, {0.021, 0.029}, {0.029, 0.039}, {0.039, 0.1}}),
+            (Counts{2, 1, 1, 6}));
+  EXPECT_EQ(counts({{0.0, 0.061}, {0.061, 0.071}, {0.071, 0.079}, {0.079, 0.1}}),
+            (Counts{7, 1, 1, 1}));
+}
+
 TEST(AssignFrames, LeavesSilenceWithoutAFrameOrTakesItsLast) {
   EXPECT_EQ(counts({{0.0, 0.051}, {0.051, 0.059, false}, {0.059, 0.2}}), (Counts{6, 0, 14}));
   EXPECT_EQ(counts({{0.0, 0.001}, {0.001, 0.009}, {0.009, 0.019, false}}), (Counts{1, 1, 0}));

@@ -107,6 +107,15 @@ TEST(Silence, GetsToRestSoonerWhereItIsShortButNeverJumps) {
   }
 }
 
+TEST(Silence, RestsInTheReferencePoseItself) {
+  for (int k = 1; k < 200; ++k) {
+    const double rest = k / 7.0;
+    const auto values = Gap({0.1}, 30, {}).filled({}, rest);
+    EXPECT_EQ(values[20], rest); // 0.2 s after the border, to the last bit
+    EXPECT_EQ(values[30], rest);
+  }
+}
+
 TEST(Silence, HoldsItsBorderWhereAskedTo) {
   const auto values = Gap({}, 30, {1.0, 3.0}).filled({.rest_at_ends = false});
   for (std::size_t k = 0; k <= 30; ++k) {
