@@ -25,7 +25,7 @@ std::vector<int> markers_in(std::initializer_list<Region> regions) {
   for (int i = 0; i < layout.group_count(); ++i) {
     const ChannelGroup& group = layout.groups[static_cast<std::size_t>(i)];
     const auto holds = [&](Region region) { return group.in(region); };
-    if (!group.in(Region::rigid) && std::any_of(regions.begin(), regions.end(), holds))
+    if (std::any_of(regions.begin(), regions.end(), holds))
       markers.push_back(i);
   }
   return markers;

@@ -71,9 +71,10 @@ MarkerPose FaceFields::pose(const FaceState& state) const {
   mouth.corner_y = i * e.corner_up - 0.3 * drop;
   mouth.forward = v[protrusion];
   mouth.corner_z = 0.45 * v[protrusion] - 0.3 * std::max(0.0, v[width]) - i * e.corner_back;
-  mouth.tuck = v[tuck];
   mouth.press = i * e.lip_press + 0.8 * state.speech.lip_closure;
-  mouth.lip_jaw_z = 0.5 * turn_jaw(rest_.row(marker_index(14)), mouth.jaw_angle).z();
+  const double apart = 1.0 - state.speech.lip_closure; // closed lips meet in depth too
+  mouth.tuck = apart * v[tuck];
+  mouth.lip_jaw_z = apart * 0.5 * turn_jaw(rest_.row(marker_index(14)), mouth.jaw_angle).z();
 
   MarkerPose posed = rest_;
   move_lips(state, mouth, posed);

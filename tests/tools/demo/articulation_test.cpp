@@ -51,9 +51,7 @@ TEST(Articulation, ClosuresCloseAllLipColumnsInEveryEmotionAndTempo) {
           const int seen = for_core(segments, 2, [&](int k) {
             for (const LipColumn& column : kLipColumns) {
               const MarkerPose& face = performance.face[static_cast<std::size_t>(k)];
-              EXPECT_LT(std::abs(face(marker_index(column.upper_inner), 1) -
-                                 face(marker_index(column.lower_inner), 1)),
-                        1e-9);
+              EXPECT_LT(distance(face, column.upper_inner, column.lower_inner), 1e-9);
             }
             const MarkerPose& measured = performance.measured[static_cast<std::size_t>(k)];
             EXPECT_LT(std::abs(measured(marker_index(13), 1) - measured(marker_index(14), 1)), 0.7)

@@ -59,6 +59,11 @@ TEST(Performance, KabschTakesTheHeadOff) {
     for (std::size_t k = 0; k < performance.face.size(); ++k) {
       const MarkerPose error = without_head(performance.measured[k], rest) - performance.face[k];
       EXPECT_LT(error.cwiseAbs().maxCoeff(), 8.0 * kNoise_mm);
+      const Eigen::Vector3d chin = performance.face[k].row(marker_index(152));
+      const Eigen::Vector3d in_room =
+          performance.head[k].rotation * chin + performance.head[k].translation_mm;
+      const Eigen::Vector3d measured_chin = performance.measured[k].row(marker_index(152));
+      EXPECT_LT((in_room - measured_chin).norm(), 12.0 * kNoise_mm);
       sum_sq += error.squaredNorm();
       count += static_cast<double>(error.size());
       moved_mm =
