@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/retarget/face_source.h"
+
+#include "db/types/errors.h"
+#include "db/types/file_io.h"
+#include "db/types/text.h"
+#include "synth/retarget/mesh_reader.h"
+
+#include <algorithm>
+
+namespace phonomime {
+namespace {
+
+constexpr std::string_view kMarkerTable = "markers.tsv";
+
+std::vector<std::filesystem::path> files_named(const std::filesystem::path& folder,
+                                               std::string_view suffix) {
+  std::vector<std::filesystem::path> found;
+  std::error_code failure;
+  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
+       entry.increment(failure)) {
+    if (to_lower(entry->path().extension().string()) == suffix && entry->is_regular_file(failure)) {
+      found.push_back(entry->path());
+    }
+  }
+  if (failure) {
+    throw IoError({.where = folder.string(),
+                   .what = "cannot look into the folder",
+                   .got = failure.message()});
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+std::filesystem::path mesh_in(const std::filesystem::path& folder) {
+  for (const std::string_view suffix : {".glb", ".obj"}) {
+    const auto found = files_named(folder, suffix);
+    if (found.size() > 1) {
+      throw InputError({.where = folder.string(),
+                        .what = "the folder holds several " + std::string(suffix) + " files",
+                        .expected = "one",
+                        .got = found[0].filename().string() + ", " + found[1].filename().string(),
+                        .remedy = "Name the mesh itself instead of its folder."});
+    }
+    if (found.size() == 1) {
+      return found.front();
+    }
+  }
+  throw InputError({.where = folder.string(),
+                    .what = "there is no face in this folder",
+                    .expected = "a .glb or a .obj file"});
+}
+
+} // namespace
+
+FaceSource read_face(const std::filesystem::path& path, const Layout& layout) {
+  std::error_code failure;
+  const std::filesystem::file_status status = std::filesystem::status(path, failure);
+  if (!std::filesystem::exists(status)) {
+    throw InputError({.where = path.string(),
+                      .what = "there is no such face",
+                      .expected = "a folder or a mesh"});
+  }
+  if (layout.kind != LayoutKind::markers) {
+    throw InputError({.where = path.string(),
+                      .what = "a face that markers move needs a database of markers",
+                      .got = "a database of weights"});
+  }
+  const std::filesystem::path file = std::filesystem::is_directory(status) ? mesh_in(path) : path;
+  FaceSource face{.mesh = read_mesh(file), .markers = {}};
+  const std::filesystem::path table = file.parent_path() / kMarkerTable;
+  if (std::filesystem::exists(table, failure)) {
+    face.markers =
+        parse_marker_map(read_file(table), table.string(), layout, face.mesh.skin_vertex_count());
+    return face;
+  }
+  auto named = marker_map_from_names(layout, face.mesh.skin_vertex_count());
+  if (!named) {
+    throw InputError(
+        {.where = file.string(),
+         .what = "nothing says where the markers sit on this face",
+         .expected = "a table " + std::string(kMarkerTable) + " beside it",
+         .remedy = "Write one line `marker<TAB>vertex` for each marker, vertices counted from 0."});
+  }
+  face.markers = std::move(*named);
+  return face;
+}
+
+} // namespace phonomime

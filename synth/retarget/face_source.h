@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/layout.h"
+#include "synth/retarget/marker_map.h"
+#include "synth/retarget/triangle_mesh.h"
+
+#include <filesystem>
+
+namespace phonomime {
+
+// A face as it lies on disk: a mesh and the place of each marker on its skin.
+struct FaceSource {
+  TriangleMesh mesh;
+  MarkerMap markers;
+};
+
+// Reads what a person names with `--face PATH`. A folder: its only .glb, else its only .obj (a GLB
+// may hold teeth and eyes); a file: that mesh. The markers are placed by `markers.tsv` beside the
+// mesh, else by their names (marker_map_from_names). Throws InputError (what was looked for and
+// what was found) and IoError.
+FaceSource read_face(const std::filesystem::path& path, const Layout& layout);
+
+} // namespace phonomime
