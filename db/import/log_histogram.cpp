@@ -50,4 +50,19 @@ LogSpread LogHistogram::spread() const {
   return result;
 }
 
+double LogHistogram::quantile(double share) const {
+  std::int64_t total = 0;
+  for (const std::uint32_t count : counts_) {
+    total += count;
+  }
+  std::int64_t seen = 0;
+  for (std::size_t bin = 0; total > 0 && bin < counts_.size(); ++bin) {
+    seen += counts_[bin];
+    if (static_cast<double>(seen) >= share * static_cast<double>(total)) {
+      return std::exp2(static_cast<double>(bin + 1) / kBinsPerOctave + kLowestOctave);
+    }
+  }
+  return 0.0;
+}
+
 } // namespace phonomime

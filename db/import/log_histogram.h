@@ -24,6 +24,10 @@ public:
   // To the width of a bin; zeros where nothing was counted.
   LogSpread spread() const;
 
+  // The value that a share (0 to 1) of those counted does not exceed, to the width of a bin; 0
+  // where nothing was counted.
+  double quantile(double share) const;
+
 private:
   static constexpr int kBinsPerOctave = 16;
   static constexpr int kLowestOctave = -10;

@@ -26,30 +26,29 @@ double position(Eigen::Index k, const SourceClock& recorded, double rate_hz) {
   return std::abs(at - nearest) < kSameTime_frames ? nearest : at;
 }
 
-// Second derivatives (per frame squared) of the natural cubic spline through the rows.
-FrameMatrixD spline_curvature(const FrameMatrixD& y) {
+// Slopes (per frame) of the monotone cubic of Fritsch and Butland: the harmonic mean of the steps
+// to either side, 0 at an extremum; one-sided at the ends.
+FrameMatrixD monotone_slopes(const FrameMatrixD& y) {
   const Eigen::Index n = y.rows();
-  FrameMatrixD curvature = FrameMatrixD::Zero(n, y.cols());
-  if (n < 3) {
-    return curvature;
+  FrameMatrixD slopes = FrameMatrixD::Zero(n, y.cols());
+  if (n < 2) {
+    return slopes;
   }
-  // m[i-1] + 4 m[i] + m[i+1] = 6 (y[i-1] - 2 y[i] + y[i+1]), m = 0 at both ends.
-  std::vector<double> upper(static_cast<std::size_t>(n), 0.0);
+  slopes.row(0) = y.row(1) - y.row(0);
+  slopes.row(n - 1) = y.row(n - 1) - y.row(n - 2);
   for (Eigen::Index i = 1; i + 1 < n; ++i) {
-    const double pivot = 1.0 / (4.0 - upper[static_cast<std::size_t>(i - 1)]);
-    upper[static_cast<std::size_t>(i)] = pivot;
-    curvature.row(i) =
-        pivot * (6.0 * (y.row(i - 1) - 2.0 * y.row(i) + y.row(i + 1)) - curvature.row(i - 1));
+    for (Eigen::Index c = 0; c < y.cols(); ++c) {
+      const double before = y(i, c) - y(i - 1, c);
+      const double after = y(i + 1, c) - y(i, c);
+      slopes(i, c) = before * after > 0.0 ? 2.0 * before * after / (before + after) : 0.0;
+    }
   }
-  for (Eigen::Index i = n - 3; i >= 1; --i) {
-    curvature.row(i) -= upper[static_cast<std::size_t>(i)] * curvature.row(i + 1);
-  }
-  return curvature;
+  return slopes;
 }
 
 FrameMatrixD upsample(const FrameMatrixD& y, const SourceClock& recorded, double rate_hz,
                       Eigen::Index count) {
-  const FrameMatrixD m = spline_curvature(y);
+  const FrameMatrixD slopes = monotone_slopes(y);
   FrameMatrixD result(count, y.cols());
   for (Eigen::Index k = 0; k < count; ++k) {
     const double at =
@@ -60,9 +59,9 @@ FrameMatrixD upsample(const FrameMatrixD& y, const SourceClock& recorded, double
       result.row(k) = y.row(i);
       continue;
     }
-    const double a = 1.0 - b;
-    result.row(k) = a * y.row(i) + b * y.row(i + 1) +
-                    ((a * a * a - a) * m.row(i) + (b * b * b - b) * m.row(i + 1)) / 6.0;
+    const double a = 1.0 - b; // the cubic Hermite basis in a and b
+    result.row(k) = a * a * (1.0 + 2.0 * b) * y.row(i) + b * b * (1.0 + 2.0 * a) * y.row(i + 1) +
+                    a * a * b * slopes.row(i) - a * b * b * slopes.row(i + 1);
   }
   return result;
 }

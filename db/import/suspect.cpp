@@ -10,7 +10,8 @@ namespace phonomime {
 
 namespace {
 
-constexpr double kSpeedSigmas = 8.0;
+constexpr double kUsualShare = 0.99; // of the steps of a group
+constexpr double kUnusualTimes = 3.0;
 constexpr double kLeastMarkerLimit = 100.0; // mm/s
 constexpr double kLeastWeightLimit = 10.0;  // 1/s
 constexpr double kDurationSigmas = 5.0;
@@ -24,7 +25,9 @@ struct RecordedRange {
   double first = 0.0;
   double last = 0.0;
   bool meets(Eigen::Index from, Eigen::Index to) const { // frames from .. to
-    return static_cast<double>(to) > first - 1.0 && static_cast<double>(from) < last + 1.0;
+    constexpr double kRounding = 1e-6;
+    return static_cast<double>(to) > first - 1.0 + kRounding &&
+           static_cast<double>(from) < last + 1.0 - kRounding;
   }
 };
 
@@ -146,9 +149,7 @@ SuspectLimits suspect_limits(const UsualMotion& usual, LayoutKind kind) {
   const double least = kind == LayoutKind::markers ? kLeastMarkerLimit : kLeastWeightLimit;
   SuspectLimits limits;
   for (const LogHistogram& histogram : usual.speeds) {
-    const LogSpread spread = histogram.spread();
-    limits.speed.push_back(std::max(
-        least, spread.count == 0 ? 0.0 : std::exp2(spread.median + kSpeedSigmas * spread.sigma)));
+    limits.speed.push_back(std::max(least, kUnusualTimes * histogram.quantile(kUsualShare)));
   }
   for (const auto& [phoneme, histogram] : usual.durations) {
     const LogSpread spread = histogram.spread();

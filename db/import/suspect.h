@@ -31,8 +31,8 @@ struct UsualMotion {
 
 // The limits that follow, robust against the very faults they are for.
 struct SuspectLimits {
-  std::vector<double> speed; // by group, mm/s or 1/s: 8 sigma over the median of the logarithm,
-                             // at least 100 mm/s or 10/s
+  std::vector<double> speed; // by group, mm/s or 1/s: three times what 99 % of its steps stay
+                             // under, at least 100 mm/s or 10/s
   std::map<std::string, std::pair<double, double>> duration_s; // least and most by phoneme: 5 sigma
                                                                // about the median of the logarithm,
                                                                // where the corpus has it 20 times
