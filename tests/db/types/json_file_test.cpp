@@ -55,7 +55,7 @@ TEST(JsonFile, EverySchemaIsFound) {
       EXPECT_TRUE(about.contains("description")) << path << ": " << member;
     }
   }
-  EXPECT_EQ(corpora_schema::embedded_files("schemas/").size(), 4u);
+  EXPECT_GE(corpora_schema::embedded_files("schemas/").size(), 4u);
 }
 
 TEST(JsonFile, SchemaErrorsNameTheMember) {
