@@ -29,7 +29,7 @@ double bessel_i0(double x) {
 
 LowPassKernel::LowPassKernel(double input_rate_hz, double output_rate_hz)
     : bandwidth_(std::min(1.0, output_rate_hz / input_rate_hz)),
-      half_width_(kZeroCrossings / bandwidth_) {}
+      half_width_(kZeroCrossings / bandwidth_), window_at_0_(bessel_i0(kKaiserBeta)) {}
 
 double LowPassKernel::operator()(double distance) const {
   const double share = distance / half_width_;
@@ -38,7 +38,7 @@ double LowPassKernel::operator()(double distance) const {
   }
   const double crossings = bandwidth_ * distance;
   const double sinc = crossings == 0.0 ? 1.0 : sin_pi(crossings) / (std::numbers::pi * crossings);
-  return sinc * bessel_i0(kKaiserBeta * std::sqrt(1.0 - share * share)) / bessel_i0(kKaiserBeta);
+  return sinc * bessel_i0(kKaiserBeta * std::sqrt(1.0 - share * share)) / window_at_0_;
 }
 
 } // namespace phonomime

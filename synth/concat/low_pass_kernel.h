@@ -19,6 +19,7 @@ public:
 private:
   double bandwidth_;  // twice the cutoff, in cycles an input frame: min(1, output / input)
   double half_width_; // in input frames
+  double window_at_0_;
 };
 
 } // namespace phonomime
