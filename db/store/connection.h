@@ -54,6 +54,7 @@ private:
   Connection(std::filesystem::path path, std::string where) noexcept;
   void open_read_only(std::span<const Migration> migrations);
   void open_read_write(std::span<const Migration> migrations);
+  void check_length() const;
   void remove_if_still_new() noexcept;
 
   std::filesystem::path path_; // absolute

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "db/store/connection.h"
+#include "db/store/schema.h"
+#include "tests/db/store/made_corpus.h"
+#include "tests/db/store/raw_database.h"
+#include "tests/db/types/expect_error.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+namespace phonomime::store {
+namespace {
+
+using test::raw_query;
+
+constexpr std::string_view kMade2 =
+    "CREATE TABLE maps (id INTEGER PRIMARY KEY, name TEXT NOT NULL) STRICT;"
+    "INSERT INTO maps SELECT id, name FROM corpora;";
+constexpr std::string_view kMade3 = "ALTER TABLE maps ADD COLUMN stale INTEGER NOT NULL DEFAULT 1;";
+constexpr std::string_view kBroken = "CREATE TABLE half (x); INSERT INTO nowhere VALUES (1);";
+constexpr std::string_view kDangling = "PRAGMA defer_foreign_keys = ON;"
+                                       "INSERT INTO coefficients VALUES (99, x'00');";
+
+struct MigrationTest : ::testing::Test {
+  test::TemporaryFolder folder;
+  std::filesystem::path path = folder / "motion.db";
+  std::vector<Migration> later = built_in_migrations();
+  int built_in = static_cast<int>(later.size());
+
+  MigrationTest() {
+    MotionDatabase database = MotionDatabase::open(path, OpenMode::read_write);
+    import_corpus(database, test::made_corpus("a", 2));
+  }
+  void add(std::string_view sql) { later.push_back({static_cast<int>(later.size()) + 1, sql}); }
+  void open(OpenMode mode) { Connection::open(path, mode, later); }
+  std::string version() { return raw_query(path, "PRAGMA user_version").at(0); }
+};
+
+TEST_F(MigrationTest, BuiltInMigrationsMakeTheSchemaOfTheHeader) {
+  EXPECT_EQ(version(), std::to_string(built_in));
+  EXPECT_EQ(raw_query(path, "PRAGMA application_id").at(0), std::to_string(kApplicationId));
+}
+
+TEST_F(MigrationTest, AnOlderVersionIsBroughtUpStepByStep) {
+  const auto sentences = raw_query(path, "SELECT * FROM sentences");
+  add(kMade2);
+  add(kMade3);
+  open(OpenMode::read_write);
+  EXPECT_EQ(version(), std::to_string(built_in + 2));
+  EXPECT_EQ(raw_query(path, "SELECT id, name, stale FROM maps"), std::vector<std::string>{"1|a|1"});
+  EXPECT_EQ(raw_query(path, "SELECT * FROM sentences"), sentences);
+  test::expect_sound(path);
+  test::expect_alone_and_whole(path);
+  open(OpenMode::read_write); // once is enough
+  EXPECT_EQ(raw_query(path, "SELECT count(*) FROM maps"), std::vector<std::string>{"1"});
+}
+
+TEST_F(MigrationTest, ReadingMigratesToo) {
+  add(kMade2);
+  open(OpenMode::read_only);
+  EXPECT_EQ(version(), std::to_string(built_in + 1));
+}
+
+TEST_F(MigrationTest, ANewDatabaseGoesThroughAllSteps) {
+  add(kMade2);
+  const std::filesystem::path fresh = folder / "new.db";
+  const auto connection = Connection::open(fresh, OpenMode::read_write, later);
+  EXPECT_EQ(raw_query(fresh, "PRAGMA user_version").at(0), std::to_string(built_in + 1));
+}
+
+TEST_F(MigrationTest, AFailedStepChangesNothing) {
+  add(kMade2);
+  add(kBroken);
+  const auto before = test::raw_dump(path);
+  EXPECT_THROW(open(OpenMode::read_write), Error);
+  EXPECT_EQ(version(), std::to_string(built_in));
+  EXPECT_EQ(test::raw_dump(path), before);
+}
+
+TEST_F(MigrationTest, AStepThatBreaksReferencesIsUndone) {
+  add(kDangling);
+  const auto before = test::raw_dump(path);
+  EXPECT_THROW(open(OpenMode::read_write), InternalError);
+  EXPECT_EQ(test::raw_dump(path), before);
+}
+
+TEST_F(MigrationTest, AMigratedDatabaseIsRefusedByAnOlderProgram) {
+  add(kMade2);
+  open(OpenMode::read_write);
+  const std::string message =
+      test::input_error([&] { MotionDatabase::open(path, OpenMode::read_only); });
+  EXPECT_NE(message.find("version " + std::to_string(built_in + 1)), std::string::npos);
+}
+
+} // namespace
+} // namespace phonomime::store
