@@ -71,21 +71,39 @@ std::vector<std::int32_t> matching_sentences(const MotionTable& table, std::stri
   return matches;
 }
 
-// Full keys of the nodes that `typed` may have meant, nearest first.
+// Full keys of up to `count` nodes of a sentence, nearest to `order` first.
+std::vector<std::string> near_keys_in(const MotionTable& table, std::int32_t sentence,
+                                      std::int32_t order, std::size_t count) {
+  std::vector<std::int32_t> orders;
+  for (const MotionNode& node : nodes_of(table, sentence)) {
+    orders.push_back(node.order);
+  }
+  std::ranges::stable_sort(orders, {}, [&](std::int32_t other) {
+    return std::abs(static_cast<std::int64_t>(other) - order);
+  });
+  std::vector<std::string> keys;
+  for (std::size_t i = 0; i < std::min(count, orders.size()); ++i) {
+    keys.push_back(node_key(table.sentences[static_cast<std::size_t>(sentence)], orders[i]));
+  }
+  return keys;
+}
+
+// Full keys of the nodes that `typed` may have meant, nearest first; `sentences` are those it
+// names.
 std::vector<std::string> near_keys(const MotionTable& table, const TypedKey& typed,
                                    const std::vector<std::int32_t>& sentences) {
-  std::vector<std::string> keys;
-  for (const std::int32_t sentence : sentences) {
-    for (const MotionNode& node : nodes_of(table, sentence)) {
-      keys.push_back(node_key(table.sentences[static_cast<std::size_t>(sentence)], node.order));
-    }
+  if (sentences.size() == 1) {
+    return near_keys_in(table, sentences[0], typed.order, kShownCandidates);
   }
-  if (!keys.empty()) {
-    const auto distance = [&](const std::string& key) {
-      return std::abs(static_cast<std::int64_t>(parse_key(key)->order) - typed.order);
-    };
-    std::ranges::stable_sort(keys, {}, distance);
-    keys.resize(std::min(keys.size(), kShownCandidates));
+  std::vector<std::string> keys;
+  const auto append_nearest = [&](std::int32_t sentence) {
+    const std::vector<std::string> nearest = near_keys_in(table, sentence, typed.order, 1);
+    keys.insert(keys.end(), nearest.begin(), nearest.end());
+  };
+  for (std::size_t i = 0; i < std::min(sentences.size(), kShownCandidates); ++i) {
+    append_nearest(sentences[i]);
+  }
+  if (!sentences.empty()) {
     return keys;
   }
   // No such sentence: compare as many parts as were typed.
@@ -97,7 +115,7 @@ std::vector<std::string> near_keys(const MotionTable& table, const TypedKey& typ
                                  : sentence_key(sentence));
   }
   for (const std::string& form : nearest_candidates(typed.sentence, forms, kShownCandidates)) {
-    keys.push_back(fmt::format("{}#{}", form, typed.order));
+    append_nearest(static_cast<std::int32_t>(std::ranges::find(forms, form) - forms.begin()));
   }
   return keys;
 }

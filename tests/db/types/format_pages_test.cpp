@@ -126,6 +126,10 @@ TEST(FormatPages, EveryExampleIsWhatItsPageSays) {
          const nlohmann::json weights = parse_json_as("weights", text, "weights.md");
          EXPECT_TRUE(weights.contains("alpha6"));
        }},
+      {"result json",
+       [](const std::string& text) {
+         EXPECT_EQ(parse_json_as("result", text, "result.md").at("path").size(), 3u);
+       }},
       {"database key", [](const std::string& text) {
          MotionTable table;
          table.speaker = "s1";
@@ -149,7 +153,7 @@ TEST(FormatPages, EveryExampleIsWhatItsPageSays) {
 
 // A page names every member of its schema.
 TEST(FormatPages, TheTablesListTheSchemasMembers) {
-  for (const char* schema_name : {"corpus", "layout", "phoneme_set", "weights"}) {
+  for (const char* schema_name : {"corpus", "layout", "phoneme_set", "weights", "result"}) {
     const std::string page = read_file(kFolder / (std::string(schema_name) + ".md"));
     const nlohmann::json schema = nlohmann::json::parse(
         read_file(kFolder / "schemas" / (std::string(schema_name) + ".schema.json")));
