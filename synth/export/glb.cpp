@@ -2,199 +2,319 @@
 #include "synth/export/glb.h"
 
 #include "db/types/errors.h"
-#include "synth/export/gltf_builder.h"
 
-#include <cmath>
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+#include <fmt/format.h>
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
 
 namespace phonomime {
+
 namespace {
 
-constexpr double kMetresPerMm = 1e-3;
-constexpr double kLeastCoefficient = 1e-9; // mm; smaller all along = not used
-constexpr double kNormalStep = 0.1;        // of a morph's full weight
+constexpr double kMetresPerMillimetre = 1e-3;
 
-MeshMaterial skin_material() {
-  return {.name = "skin",
-          .base_color = {0.72, 0.45, 0.35, 1.0},
-          .metallic = 0.0,
-          .roughness = 0.6,
-          .double_sided = true};
-}
+using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-// A PCA dimension that the motion uses.
-struct UsedMorph {
+// A PCA dimension that moves: its morph target is scaled so that weights stay within [-1, 1].
+struct ActiveTarget {
   Eigen::Index dimension = 0;
-  double scale = 1.0; // weight 1 = this coefficient
+  double scale = 1.0;
 };
 
-std::vector<UsedMorph> used_morphs(const CoefficientMotion& motion) {
-  std::vector<UsedMorph> used;
+std::vector<ActiveTarget> active_targets(const CoefficientMotion& motion) {
+  std::vector<ActiveTarget> targets;
   for (Eigen::Index d = 0; d < motion.coefficients.cols(); ++d) {
     const double largest = motion.coefficients.col(d).cwiseAbs().maxCoeff();
-    if (largest > kLeastCoefficient) {
-      used.push_back({d, largest});
+    if (largest > 0.0) {
+      targets.push_back({d, largest});
     }
   }
-  return used;
+  return targets;
 }
 
-class GlbMaker {
-public:
-  GlbMaker(const TriangleMesh& mesh, const MorphTargets& targets, const CoefficientMotion& motion,
-           const ExportNotes& notes)
-      : mesh_(mesh), targets_(targets), motion_(motion), used_(used_morphs(motion)),
-        builder_(notes.title, notes.credits, notes.synthetic) {}
+bool rests(const std::vector<HeadPose>& head) {
+  return std::ranges::all_of(head, [&](const HeadPose& pose) {
+    return pose.translation_mm == head.front().translation_mm &&
+           pose.rotation.coeffs() == head.front().rotation.coeffs();
+  });
+}
 
-  std::string make() {
-    add_materials();
-    find_normals();
-    std::vector<GltfBuilder::Primitive> moving;
-    std::vector<GltfBuilder::Primitive> resting;
-    for (std::size_t p = 0; p < mesh_.parts.size(); ++p) {
-      const MeshPart& part = mesh_.parts[p];
-      if (part.triangle_count == 0 && p > 0) {
-        continue;
+// Appends to the model's one buffer and describes what was appended.
+class GlbBuilder {
+public:
+  GlbBuilder() { model_.buffers.emplace_back(); }
+
+  tinygltf::Model& model() { return model_; }
+
+  int add_vectors(const FloatPoints& values, bool with_range) {
+    const int accessor = add_accessor(values.data(), static_cast<std::size_t>(values.size()) * 4,
+                                      values.rows(), TINYGLTF_TYPE_VEC3,
+                                      TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
+    if (with_range) {
+      for (int axis = 0; axis < 3; ++axis) {
+        model_.accessors.back().minValues.push_back(values.col(axis).minCoeff());
+        model_.accessors.back().maxValues.push_back(values.col(axis).maxCoeff());
       }
-      const bool moves = p == 0 || moves_at_all(part);
-      (moves ? moving : resting).push_back(primitive_of(part, moves));
     }
-    std::vector<double> first_weights;
-    std::vector<std::string> names;
-    for (const UsedMorph& morph : used_) {
-      first_weights.push_back(motion_.coefficients(0, morph.dimension) / morph.scale);
-      names.push_back("pca" + std::to_string(morph.dimension));
+    return accessor;
+  }
+
+  int add_indices(const std::vector<std::uint32_t>& indices) {
+    return add_accessor(indices.data(), indices.size() * 4,
+                        static_cast<Eigen::Index>(indices.size()), TINYGLTF_TYPE_SCALAR,
+                        TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+  }
+
+  // Animation data: `components` of TINYGLTF_TYPE_*.
+  int add_samples(const std::vector<float>& values, int components, bool with_range) {
+    const auto width = static_cast<std::size_t>(
+        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(components)));
+    const int accessor = add_accessor(values.data(), values.size() * 4,
+                                      static_cast<Eigen::Index>(values.size() / width), components,
+                                      TINYGLTF_COMPONENT_TYPE_FLOAT, 0);
+    if (with_range) {
+      const auto [low, high] = std::ranges::minmax(values);
+      model_.accessors.back().minValues.push_back(low);
+      model_.accessors.back().maxValues.push_back(high);
     }
-    const int head =
-        builder_.add_node("head", builder_.add_mesh("face", moving, first_weights, names));
-    if (!resting.empty()) {
-      builder_.add_node("head_parts", builder_.add_mesh("parts", resting, {}, {}), head);
-    }
-    animate(head);
-    return builder_.finish();
+    return accessor;
   }
 
 private:
-  void add_materials() {
-    for (const MeshMaterial& material : mesh_.materials) {
-      builder_.add_material(material);
-    }
-    default_material_ = -1;
-    for (const MeshPart& part : mesh_.parts) {
-      if (part.material < 0 && default_material_ < 0) {
-        default_material_ = builder_.add_material(skin_material());
-      }
-    }
+  int add_accessor(const void* data, std::size_t bytes, Eigen::Index count, int type,
+                   int component_type, int target) {
+    std::vector<unsigned char>& buffer = model_.buffers.front().data;
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = buffer.size();
+    view.byteLength = bytes;
+    view.target = target;
+    buffer.resize(buffer.size() + bytes); // everything here is a multiple of four bytes
+    std::memcpy(buffer.data() + view.byteOffset, data, bytes);
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(model_.bufferViews.size());
+    accessor.count = static_cast<std::size_t>(count);
+    accessor.type = type;
+    accessor.componentType = component_type;
+    model_.bufferViews.push_back(std::move(view));
+    model_.accessors.push_back(std::move(accessor));
+    return static_cast<int>(model_.accessors.size()) - 1;
   }
 
-  void find_normals() {
-    normals_ = vertex_normals(targets_.base, mesh_.triangles);
-    for (const UsedMorph& morph : used_) {
-      const Points step =
-          kNormalStep * morph.scale * targets_.morphs[static_cast<std::size_t>(morph.dimension)];
-      normal_deltas_.push_back((vertex_normals(targets_.base + step, mesh_.triangles) -
-                                vertex_normals(targets_.base - step, mesh_.triangles)) /
-                               (2.0 * kNormalStep));
-    }
-  }
-
-  bool moves_at_all(const MeshPart& part) const {
-    for (const UsedMorph& morph : used_) {
-      const Points& delta = targets_.morphs[static_cast<std::size_t>(morph.dimension)];
-      if (!delta.middleRows(part.first_vertex, part.vertex_count).isZero(0.0)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  GltfBuilder::Primitive primitive_of(const MeshPart& part, bool moves) {
-    const auto rows = [&](const Points& all) -> Points {
-      return all.middleRows(part.first_vertex, part.vertex_count);
-    };
-    GltfBuilder::Primitive primitive;
-    primitive.positions = builder_.add_vertices(kMetresPerMm * rows(targets_.base));
-    primitive.normals = builder_.add_vertices(rows(normals_));
-    std::vector<std::uint32_t> indices;
-    indices.reserve(static_cast<std::size_t>(part.triangle_count) * 3);
-    for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
-      for (int corner = 0; corner < 3; ++corner) {
-        indices.push_back(
-            static_cast<std::uint32_t>(mesh_.triangles(t, corner) - part.first_vertex));
-      }
-    }
-    primitive.indices = builder_.add_indices(indices);
-    primitive.material = part.material >= 0 ? part.material : default_material_;
-    for (std::size_t m = 0; moves && m < used_.size(); ++m) {
-      const Points& delta = targets_.morphs[static_cast<std::size_t>(used_[m].dimension)];
-      primitive.targets.push_back(
-          {builder_.add_vertices(kMetresPerMm * used_[m].scale * rows(delta)),
-           builder_.add_vertices(rows(normal_deltas_[m]))});
-    }
-    return primitive;
-  }
-
-  void animate(int head) {
-    const Eigen::Index frames = motion_.coefficients.rows();
-    std::vector<float> times;
-    std::vector<float> weights;
-    for (Eigen::Index k = 0; k < frames; ++k) {
-      times.push_back(static_cast<float>(static_cast<double>(k) / motion_.rate_hz));
-      for (const UsedMorph& morph : used_) {
-        weights.push_back(
-            static_cast<float>(motion_.coefficients(k, morph.dimension) / morph.scale));
-      }
-    }
-    const int keys = builder_.add_keys(times, 1);
-    if (!used_.empty()) {
-      builder_.animate(head, "weights", keys, builder_.add_keys(weights, 1));
-    }
-    if (motion_.head.empty()) {
-      return;
-    }
-    std::vector<float> translations;
-    std::vector<float> rotations;
-    Eigen::Quaterniond before = motion_.head.front().rotation.normalized();
-    builder_.place_node(head, kMetresPerMm * motion_.head.front().translation_mm, before);
-    for (const HeadPose& pose : motion_.head) {
-      const Eigen::Vector3f translation = (kMetresPerMm * pose.translation_mm).cast<float>();
-      translations.insert(translations.end(), translation.data(), translation.data() + 3);
-      Eigen::Quaterniond rotation = pose.rotation.normalized();
-      if (rotation.dot(before) < 0.0) {
-        rotation.coeffs() = -rotation.coeffs(); // the same pose, the short way from the last one
-      }
-      before = rotation;
-      const Eigen::Quaternionf narrow = rotation.cast<float>().normalized();
-      rotations.insert(rotations.end(), {narrow.x(), narrow.y(), narrow.z(), narrow.w()});
-    }
-    builder_.animate(head, "translation", keys, builder_.add_keys(translations, 3));
-    builder_.animate(head, "rotation", keys, builder_.add_keys(rotations, 4));
-  }
-
-  const TriangleMesh& mesh_;
-  const MorphTargets& targets_;
-  const CoefficientMotion& motion_;
-  std::vector<UsedMorph> used_;
-  GltfBuilder builder_;
-  int default_material_ = -1;
-  Points normals_;
-  std::vector<Points> normal_deltas_; // of the used morphs, at full weight
+  tinygltf::Model model_;
 };
+
+tinygltf::Material gltf_material(const MeshMaterial& material) {
+  tinygltf::Material result;
+  result.name = material.name;
+  result.doubleSided = material.double_sided;
+  result.pbrMetallicRoughness.baseColorFactor = {material.base_color.begin(),
+                                                 material.base_color.end()};
+  result.pbrMetallicRoughness.metallicFactor = material.metallic;
+  result.pbrMetallicRoughness.roughnessFactor = material.roughness;
+  return result;
+}
+
+// For a face that comes without a material.
+MeshMaterial plain_skin() {
+  return {.name = "skin",
+          .base_color = {0.62, 0.40, 0.31, 1.0},
+          .metallic = 0.0,
+          .roughness = 0.55,
+          .double_sided = true};
+}
+
+FloatPoints part_rows(const Points& points, const MeshPart& part, double scale) {
+  return (scale * points.middleRows(part.first_vertex, part.vertex_count)).cast<float>();
+}
+
+std::vector<std::uint32_t> part_indices(const TriangleMesh& mesh, const MeshPart& part) {
+  std::vector<std::uint32_t> indices;
+  for (int t = 0; t < part.triangle_count; ++t) {
+    for (int corner = 0; corner < 3; ++corner) {
+      indices.push_back(static_cast<std::uint32_t>(mesh.triangles(part.first_triangle + t, corner) -
+                                                   part.first_vertex));
+    }
+  }
+  return indices;
+}
+
+void add_mesh(GlbBuilder& builder, const TriangleMesh& mesh, const MorphTargets& morphs,
+              const std::vector<ActiveTarget>& targets) {
+  tinygltf::Model& model = builder.model();
+  for (const MeshMaterial& material : mesh.materials) {
+    model.materials.push_back(gltf_material(material));
+  }
+  const bool needs_skin =
+      std::ranges::any_of(mesh.parts, [](const MeshPart& part) { return part.material < 0; });
+  const int plain = static_cast<int>(model.materials.size());
+  if (needs_skin) {
+    model.materials.push_back(gltf_material(plain_skin()));
+  }
+  const Points normals = vertex_normals(morphs.base, mesh.triangles);
+  std::vector<Points> offsets;
+  std::vector<Points> normal_offsets;
+  for (const ActiveTarget& target : targets) {
+    offsets.push_back(target.scale * morphs.morphs[static_cast<std::size_t>(target.dimension)]);
+    normal_offsets.push_back(vertex_normals(morphs.base + offsets.back(), mesh.triangles) -
+                             normals);
+  }
+  tinygltf::Mesh face;
+  face.name = "face";
+  for (const MeshPart& part : mesh.parts) {
+    if (part.triangle_count == 0) {
+      continue;
+    }
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = part.material < 0 ? plain : part.material;
+    primitive.indices = builder.add_indices(part_indices(mesh, part));
+    primitive.attributes["POSITION"] =
+        builder.add_vectors(part_rows(morphs.base, part, kMetresPerMillimetre), true);
+    primitive.attributes["NORMAL"] = builder.add_vectors(part_rows(normals, part, 1.0), false);
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      primitive.targets.push_back(
+          {{"POSITION",
+            builder.add_vectors(part_rows(offsets[k], part, kMetresPerMillimetre), true)},
+           {"NORMAL", builder.add_vectors(part_rows(normal_offsets[k], part, 1.0), false)}});
+    }
+    face.primitives.push_back(std::move(primitive));
+  }
+  tinygltf::Value::Array names;
+  for (const ActiveTarget& target : targets) {
+    names.emplace_back(fmt::format("pca_{:02}", target.dimension));
+  }
+  if (!names.empty()) {
+    face.extras = tinygltf::Value(tinygltf::Value::Object{{"targetNames", tinygltf::Value(names)}});
+  }
+  model.meshes.push_back(std::move(face));
+}
+
+std::vector<float> weight_samples(const CoefficientMotion& motion,
+                                  const std::vector<ActiveTarget>& targets) {
+  std::vector<float> samples;
+  for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
+    for (const ActiveTarget& target : targets) {
+      samples.push_back(
+          static_cast<float>(motion.coefficients(frame, target.dimension) / target.scale));
+    }
+  }
+  return samples;
+}
+
+void add_channel(tinygltf::Animation& animation, int node, const char* path, int times,
+                 int samples) {
+  tinygltf::AnimationSampler sampler;
+  sampler.input = times;
+  sampler.output = samples;
+  sampler.interpolation = "LINEAR";
+  tinygltf::AnimationChannel channel;
+  channel.sampler = static_cast<int>(animation.samplers.size());
+  channel.target_node = node;
+  channel.target_path = path;
+  animation.samplers.push_back(std::move(sampler));
+  animation.channels.push_back(std::move(channel));
+}
+
+void add_animation(GlbBuilder& builder, const CoefficientMotion& motion,
+                   const std::vector<ActiveTarget>& targets, int head_node, int face_node) {
+  const bool head_moves = !motion.head.empty() && !rests(motion.head);
+  if (targets.empty() && !head_moves) {
+    return;
+  }
+  std::vector<float> times;
+  for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
+    times.push_back(static_cast<float>(static_cast<double>(frame) / motion.rate_hz));
+  }
+  tinygltf::Animation animation;
+  animation.name = "speech";
+  const int time_accessor = builder.add_samples(times, TINYGLTF_TYPE_SCALAR, true);
+  if (!targets.empty()) {
+    add_channel(animation, face_node, "weights", time_accessor,
+                builder.add_samples(weight_samples(motion, targets), TINYGLTF_TYPE_SCALAR, false));
+  }
+  if (head_moves) {
+    std::vector<float> rotations;
+    std::vector<float> translations;
+    for (const HeadPose& pose : motion.head) {
+      for (const double value : pose.rotation.normalized().coeffs()) { // x, y, z, w, as glTF
+        rotations.push_back(static_cast<float>(value));
+      }
+      for (const double value : pose.translation_mm) {
+        translations.push_back(static_cast<float>(kMetresPerMillimetre * value));
+      }
+    }
+    add_channel(animation, head_node, "rotation", time_accessor,
+                builder.add_samples(rotations, TINYGLTF_TYPE_VEC4, false));
+    add_channel(animation, head_node, "translation", time_accessor,
+                builder.add_samples(translations, TINYGLTF_TYPE_VEC3, false));
+  }
+  builder.model().animations.push_back(std::move(animation));
+}
+
+void add_nodes(tinygltf::Model& model, const CoefficientMotion& motion,
+               const std::vector<ActiveTarget>& targets) {
+  tinygltf::Node head;
+  head.name = "head";
+  head.children = {1};
+  if (!motion.head.empty()) {
+    const Eigen::Vector4d rotation = motion.head.front().rotation.normalized().coeffs();
+    const Eigen::Vector3d translation = kMetresPerMillimetre * motion.head.front().translation_mm;
+    head.rotation = {rotation.begin(), rotation.end()};
+    head.translation = {translation.begin(), translation.end()};
+  }
+  tinygltf::Node face;
+  face.name = "face";
+  face.mesh = 0;
+  for (const ActiveTarget& target : targets) { // a program without animations shows frame 0
+    face.weights.push_back(motion.coefficients(0, target.dimension) / target.scale);
+  }
+  model.nodes = {std::move(head), std::move(face)};
+  tinygltf::Scene scene;
+  scene.nodes = {0};
+  model.scenes.push_back(std::move(scene));
+  model.defaultScene = 0;
+}
+
+void add_asset(tinygltf::Model& model, const GlbNotes& notes) {
+  model.asset.version = "2.0";
+  model.asset.generator = "Phonomime";
+  tinygltf::Value::Array credits;
+  for (const std::string& credit : notes.credits) {
+    credits.emplace_back(credit);
+  }
+  model.asset.extras =
+      tinygltf::Value(tinygltf::Value::Object{{"title", tinygltf::Value(notes.title)},
+                                              {"credits", tinygltf::Value(std::move(credits))},
+                                              {"synthetic", tinygltf::Value(notes.synthetic)}});
+}
 
 } // namespace
 
-std::string make_glb(const TriangleMesh& mesh, const MorphTargets& targets,
-                     const CoefficientMotion& motion, const ExportNotes& notes) {
-  const auto frames = motion.coefficients.rows();
-  if (targets.base.rows() != mesh.vertex_count() ||
-      static_cast<Eigen::Index>(targets.morphs.size()) != motion.coefficients.cols() ||
-      (!motion.head.empty() && static_cast<Eigen::Index>(motion.head.size()) != frames)) {
-    throw InternalError({.what = "a face and its motion do not belong together"});
+std::string marker_face_glb(const TriangleMesh& mesh, const MorphTargets& morphs,
+                            const CoefficientMotion& motion, const GlbNotes& notes) {
+  if (motion.coefficients.rows() == 0 ||
+      motion.coefficients.cols() != static_cast<Eigen::Index>(morphs.morphs.size()) ||
+      morphs.base.rows() != mesh.positions.rows()) {
+    throw InternalError({.what = "mesh, morph targets and motion do not fit each other"});
   }
-  if (frames == 0 || !(motion.rate_hz > 0.0) || !motion.coefficients.allFinite()) {
-    throw InputError(
-        {.what = "there is no motion to animate the face with", .expected = "at least one frame"});
+  const std::vector<ActiveTarget> targets = active_targets(motion);
+  GlbBuilder builder;
+  add_mesh(builder, mesh, morphs, targets);
+  add_nodes(builder.model(), motion, targets);
+  add_animation(builder, motion, targets, 0, 1);
+  add_asset(builder.model(), notes);
+  std::ostringstream stream;
+  tinygltf::TinyGLTF writer;
+  if (!writer.WriteGltfSceneToStream(&builder.model(), stream, false, true)) {
+    throw InternalError({.what = "the binary glTF could not be put together"});
   }
-  return GlbMaker(mesh, targets, motion, notes).make();
+  return std::move(stream).str();
 }
 
 } // namespace phonomime

@@ -3,6 +3,7 @@
 
 #include "db/types/motion.h"
 #include "synth/retarget/marker_face.h"
+#include "synth/retarget/triangle_mesh.h"
 
 #include <string>
 #include <vector>
@@ -10,23 +11,25 @@
 namespace phonomime {
 
 // What a file says of itself.
-struct ExportNotes {
+struct GlbNotes {
   std::string title;
   std::vector<std::string> credits;
-  bool synthetic = false; // some of the motion was made, not recorded
+  bool synthetic = false;
 };
 
-// A binary glTF 2.0 file, metres, y up: the node "head" carries the face and, where the motion has
-// them, the head's poses. Mesh 0 holds the parts that move, the skin first (primitive 0, vertices
-// as in `mesh`); mesh 1, on a child node, those that rest with the head. One morph target, named
-// "pca0" and so on in extras.targetNames, stands for each PCA dimension that this motion uses: the
-// morph times the coefficient's largest size, so that the animated weights stay within [-1, 1].
-// POSITION deltas are exact; NORMAL deltas are central differences. One linear key at each frame.
+// A binary glTF 2.0 file of a face in motion (DESIGN section 10), in metres, y up, z towards the
+// viewer: node `head` with the head pose, under it node `face` with one mesh, a primitive for each
+// part that has triangles (the skin first, its vertices numbered as in `mesh`), a morph target for
+// each PCA dimension that moves, and one animation of the morphs' weights, linear between frames.
 //
-// `mesh` gives triangles, parts and materials; `targets` the shape in mm (base and one morph per
-// dimension of `motion`). Throws InternalError where they do not belong together, InputError where
-// the motion has no frame.
-std::string make_glb(const TriangleMesh& mesh, const MorphTargets& targets,
-                     const CoefficientMotion& motion, const ExportNotes& notes);
+// E11 and E15 are linear, so that base + sum of weight times target is the deformed mesh exactly.
+// A target is scaled by the largest magnitude of its coefficient in the motion: weights stay within
+// [-1, 1], which Blender limits shape keys to. Normals have morphs of their own (differences at
+// full weight: right there, near it in between).
+//
+// `morphs`: of the mesh's vertices, mm. `motion`: at the rate that its frames are to be played at,
+// at least one frame. Throws InternalError where they do not fit each other.
+std::string marker_face_glb(const TriangleMesh& mesh, const MorphTargets& morphs,
+                            const CoefficientMotion& motion, const GlbNotes& notes);
 
 } // namespace phonomime

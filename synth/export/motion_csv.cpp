@@ -2,162 +2,72 @@
 #include "synth/export/motion_csv.h"
 
 #include "db/types/errors.h"
-#include "db/types/text.h"
+#include "db/types/live_link_columns.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include <fmt/format.h>
 
 namespace phonomime {
+
 namespace {
 
-// Live Link Face's order: ARKit's 52 shapes, then the rotations.
-constexpr std::size_t kShapes = 52;
-constexpr std::array<std::string_view, 61> kLiveLinkNames = {"EyeBlinkLeft",
-                                                             "EyeLookDownLeft",
-                                                             "EyeLookInLeft",
-                                                             "EyeLookOutLeft",
-                                                             "EyeLookUpLeft",
-                                                             "EyeSquintLeft",
-                                                             "EyeWideLeft",
-                                                             "EyeBlinkRight",
-                                                             "EyeLookDownRight",
-                                                             "EyeLookInRight",
-                                                             "EyeLookOutRight",
-                                                             "EyeLookUpRight",
-                                                             "EyeSquintRight",
-                                                             "EyeWideRight",
-                                                             "JawForward",
-                                                             "JawRight",
-                                                             "JawLeft",
-                                                             "JawOpen",
-                                                             "MouthClose",
-                                                             "MouthFunnel",
-                                                             "MouthPucker",
-                                                             "MouthRight",
-                                                             "MouthLeft",
-                                                             "MouthSmileLeft",
-                                                             "MouthSmileRight",
-                                                             "MouthFrownLeft",
-                                                             "MouthFrownRight",
-                                                             "MouthDimpleLeft",
-                                                             "MouthDimpleRight",
-                                                             "MouthStretchLeft",
-                                                             "MouthStretchRight",
-                                                             "MouthRollLower",
-                                                             "MouthRollUpper",
-                                                             "MouthShrugLower",
-                                                             "MouthShrugUpper",
-                                                             "MouthPressLeft",
-                                                             "MouthPressRight",
-                                                             "MouthLowerDownLeft",
-                                                             "MouthLowerDownRight",
-                                                             "MouthUpperUpLeft",
-                                                             "MouthUpperUpRight",
-                                                             "BrowDownLeft",
-                                                             "BrowDownRight",
-                                                             "BrowInnerUp",
-                                                             "BrowOuterUpLeft",
-                                                             "BrowOuterUpRight",
-                                                             "CheekPuff",
-                                                             "CheekSquintLeft",
-                                                             "CheekSquintRight",
-                                                             "NoseSneerLeft",
-                                                             "NoseSneerRight",
-                                                             "TongueOut",
-                                                             "HeadYaw",
-                                                             "HeadPitch",
-                                                             "HeadRoll",
-                                                             "LeftEyeYaw",
-                                                             "LeftEyePitch",
-                                                             "LeftEyeRoll",
-                                                             "RightEyeYaw",
-                                                             "RightEyePitch",
-                                                             "RightEyeRoll"};
-
-// For each of Live Link's values, the layout's group, -1 = the layout lacks it. Empty where the
-// layout is not ARKit's.
-std::vector<int> live_link_groups(const Layout& layout) {
-  if (layout.kind != LayoutKind::weights ||
-      (layout.groups.size() != kShapes && layout.groups.size() != kLiveLinkNames.size())) {
-    return {};
-  }
-  std::vector<int> groups(kLiveLinkNames.size(), -1);
-  for (int g = 0; g < layout.group_count(); ++g) {
-    const std::string name = to_lower(layout.groups[static_cast<std::size_t>(g)].name);
-    const auto found =
-        std::ranges::find_if(kLiveLinkNames, [&](auto known) { return to_lower(known) == name; });
-    if (found == kLiveLinkNames.end()) {
-      return {};
-    }
-    groups[static_cast<std::size_t>(found - kLiveLinkNames.begin())] = g;
-  }
-  return std::ranges::count(groups.begin(), groups.begin() + kShapes, -1) == 0 ? groups
-                                                                               : std::vector<int>();
+// Six decimals hold a frame's time to a microsecond at any rate.
+double frame_time_s(const CoefficientMotion& motion, Eigen::Index frame) {
+  return static_cast<double>(frame) / motion.rate_hz;
 }
 
-void check(const Layout& layout, LayoutKind kind, double rate_hz, const FrameMatrixD& frames) {
-  if (layout.kind != kind || frames.cols() != layout.channel_count() || !(rate_hz > 0.0) ||
-      !frames.allFinite()) {
-    throw InternalError({.what = "motion and layout do not belong together"});
-  }
-  for (const ChannelGroup& group : layout.groups) {
-    if (group.name.find_first_of(",\"\r\n") != std::string::npos) {
-      throw UsageError({.what = "the name " + quoted(group.name) + " cannot stand in a CSV header",
-                        .remedy = "Give the group a name without commas and quotes."});
-    }
+Eigen::VectorXd frame_channels(const PcaModel& pca, const CoefficientMotion& motion,
+                               Eigen::Index frame) {
+  return pca.reconstruct(motion.coefficients.row(frame).transpose());
+}
+
+// Without "-0.0000", which differs from "0.0000" for no reader's good.
+void append_decimal(std::string& text, double value, int decimals) {
+  const std::size_t begin = text.size();
+  fmt::format_to(std::back_inserter(text), "{:.{}f}", value, decimals);
+  if (text[begin] == '-' && text.find_first_not_of("-0.", begin) == std::string::npos) {
+    text.erase(begin, 1);
   }
 }
 
-// A number rounded to `digits` decimals; never "-0.000".
-void append_number(std::string& text, double value, int digits) {
-  const double unit = std::pow(10.0, digits);
-  if (std::abs(value) * unit < 0.5) {
-    value = 0.0;
-  }
-  fmt::format_to(std::back_inserter(text), "{:.{}f}", value, digits);
-}
-
-void append_time(std::string& text, Eigen::Index frame, double rate_hz) {
-  append_number(text, static_cast<double>(frame) / rate_hz, 6);
-}
-
-// HH:MM:SS:FF.fff, FF in sixtieths of a second.
-std::string timecode(Eigen::Index frame, double rate_hz) {
-  const long long thousandths = std::llround(static_cast<double>(frame) / rate_hz * 60.0 * 1000.0);
-  const long long ticks = thousandths / 1000;
-  const long long seconds = ticks / 60;
+// HH:MM:SS:FF.mmm with 60 ticks a second.
+std::string timecode(double time_s) {
+  constexpr long kTicks = 60;
+  const long thousandths = std::lround(time_s * kTicks * 1000.0);
+  const long ticks = thousandths / 1000;
+  const long seconds = ticks / kTicks;
   return fmt::format("{:02}:{:02}:{:02}:{:02}.{:03}", seconds / 3600 % 24, seconds / 60 % 60,
-                     seconds % 60, ticks % 60, thousandths % 1000);
+                     seconds % 60, ticks % kTicks, thousandths % 1000);
 }
+
+constexpr std::span<const std::string_view> kLiveLinkShapeColumns =
+    std::span(kLiveLinkColumns).first(kArkitShapeCount);
 
 } // namespace
 
-std::string format_marker_csv(const Layout& layout, double rate_hz, const FrameMatrixD& channels,
-                              std::span<const HeadPose> head) {
-  check(layout, LayoutKind::markers, rate_hz, channels);
-  if (!head.empty() && static_cast<Eigen::Index>(head.size()) != channels.rows()) {
-    throw InternalError({.what = "head poses and frames differ in number"});
-  }
+std::string marker_csv(const Layout& layout, const PcaModel& pca, const CoefficientMotion& motion,
+                       bool head) {
   std::string text = "time";
   for (const ChannelGroup& group : layout.groups) {
     text += fmt::format(",{0}_x,{0}_y,{0}_z", group.name);
   }
   text += '\n';
-  for (Eigen::Index k = 0; k < channels.rows(); ++k) {
-    append_time(text, k, rate_hz);
-    for (Eigen::Index g = 0; g < layout.group_count(); ++g) {
-      Eigen::Vector3d marker = channels.row(k).segment<3>(3 * g).transpose();
-      if (!head.empty()) {
-        const HeadPose& pose = head[static_cast<std::size_t>(k)];
+  for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
+    append_decimal(text, frame_time_s(motion, frame), 6);
+    const Eigen::VectorXd channels = frame_channels(pca, motion, frame);
+    for (int group = 0; group < layout.group_count(); ++group) {
+      Eigen::Vector3d marker = channels.segment<3>(3 * group);
+      if (head && !motion.head.empty()) {
+        const HeadPose& pose = motion.head[static_cast<std::size_t>(frame)];
         marker = pose.rotation * marker + pose.translation_mm;
       }
       for (const double value : marker) {
         text += ',';
-        append_number(text, value, 4);
+        append_decimal(text, value, 4);
       }
     }
     text += '\n';
@@ -165,33 +75,17 @@ std::string format_marker_csv(const Layout& layout, double rate_hz, const FrameM
   return text;
 }
 
-std::string format_weight_csv(const Layout& layout, double rate_hz, const FrameMatrixD& weights) {
-  check(layout, LayoutKind::weights, rate_hz, weights);
-  const std::vector<int> live_link = live_link_groups(layout);
-  std::string text = live_link.empty() ? "time" : "Timecode,BlendShapeCount";
-  if (live_link.empty()) {
-    for (const ChannelGroup& group : layout.groups) {
-      text += "," + group.name;
-    }
-  }
-  for (std::size_t i = 0; i < live_link.size(); ++i) {
-    text += ',';
-    text += kLiveLinkNames[i];
+std::string weight_csv(const Layout& layout, const PcaModel& pca, const CoefficientMotion& motion) {
+  std::string text = "time";
+  for (const ChannelGroup& group : layout.groups) {
+    text += "," + group.name;
   }
   text += '\n';
-  for (Eigen::Index k = 0; k < weights.rows(); ++k) {
-    if (live_link.empty()) {
-      append_time(text, k, rate_hz);
-      for (Eigen::Index g = 0; g < weights.cols(); ++g) {
-        text += ',';
-        append_number(text, weights(k, g), 10);
-      }
-    } else {
-      text += fmt::format("{},{}", timecode(k, rate_hz), kLiveLinkNames.size());
-      for (const int group : live_link) {
-        text += ',';
-        append_number(text, group < 0 ? 0.0 : weights(k, group), 10);
-      }
+  for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
+    append_decimal(text, frame_time_s(motion, frame), 6);
+    for (const double value : frame_channels(pca, motion, frame)) {
+      text += ',';
+      append_decimal(text, value, 6);
     }
     text += '\n';
   }
@@ -199,7 +93,36 @@ std::string format_weight_csv(const Layout& layout, double rate_hz, const FrameM
 }
 
 bool is_live_link_layout(const Layout& layout) {
-  return !live_link_groups(layout).empty();
+  const auto known = [](const ChannelGroup& group) {
+    return std::ranges::find(kLiveLinkColumns, group.name) != kLiveLinkColumns.end();
+  };
+  return layout.kind == LayoutKind::weights && std::ranges::all_of(layout.groups, known) &&
+         std::ranges::all_of(kLiveLinkShapeColumns, [&](std::string_view shape) {
+           return layout.find_group(shape).has_value();
+         });
+}
+
+std::string live_link_csv(const Layout& layout, const PcaModel& pca,
+                          const CoefficientMotion& motion) {
+  if (!is_live_link_layout(layout)) {
+    throw InternalError({.what = "the layout's groups are not Live Link Face's columns"});
+  }
+  std::string text = "Timecode,BlendShapeCount";
+  for (const std::string_view column : kLiveLinkColumns) {
+    text += fmt::format(",{}", column);
+  }
+  text += '\n';
+  for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
+    text += fmt::format("{},{}", timecode(frame_time_s(motion, frame)), kLiveLinkColumns.size());
+    const Eigen::VectorXd channels = frame_channels(pca, motion, frame);
+    for (const std::string_view column : kLiveLinkColumns) {
+      const std::optional<int> group = layout.find_group(column);
+      text += ',';
+      append_decimal(text, group ? channels[*group] : 0.0, 10);
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 } // namespace phonomime

@@ -4,25 +4,29 @@
 #include "db/types/layout.h"
 #include "db/types/motion.h"
 
-#include <span>
 #include <string>
 
 namespace phonomime {
 
-// Marker CSV (DESIGN section 10): `time,<group>_x,<group>_y,<group>_z,...`, seconds to 1e-6 and
-// millimetres to 1e-4, frame k at k / rate_hz. `channels`: #frames by #channels, head at rest.
-// `head`: #frames poses to put back, or empty. Throws InternalError where sizes do not fit,
-// UsageError where a group's name cannot stand in a CSV header.
-std::string format_marker_csv(const Layout& layout, double rate_hz, const FrameMatrixD& channels,
-                              std::span<const HeadPose> head = {});
+// Motion as text that the importer's readers, spreadsheets and scripts read
+// (corpora_schema/motion.md). `motion` is taken through E11; its frames are at k / rate.
 
-// Weight CSV: Live Link Face's 63 columns where the layout's groups are ARKit's (its 52 shapes,
-// with or without the 9 rotations of head and eyes; case ignored), else `time,<name>,...`.
-// `weights`: #frames by #groups. A Live Link timecode counts 60 ticks a second from 00:00:00:00.000
-// whatever the rate. Throws as format_marker_csv.
-std::string format_weight_csv(const Layout& layout, double rate_hz, const FrameMatrixD& weights);
+// `time,<group>_x,<group>_y,<group>_z,...`, seconds and mm to four decimals, in our axes. `head`:
+// whether the motion's head poses are put back; without them the head rests.
+std::string marker_csv(const Layout& layout, const PcaModel& pca, const CoefficientMotion& motion,
+                       bool head);
 
-// Whether format_weight_csv writes Live Link's columns for this layout.
+// `time,<name>,...`, weights to six decimals.
+std::string weight_csv(const Layout& layout, const PcaModel& pca, const CoefficientMotion& motion);
+
+// Whether every group of a weights layout is one of Live Link Face's 61 columns and the 52 shapes
+// are all there.
 bool is_live_link_layout(const Layout& layout);
+
+// Live Link Face's 63 columns: Timecode, BlendshapeCount, the 52 shapes, head and eye angles (0
+// where the layout has no such group). Timecodes count 60 ticks a second from 00:00:00:00.000, with
+// the fraction of a tick in thousandths. Throws InternalError for another layout.
+std::string live_link_csv(const Layout& layout, const PcaModel& pca,
+                          const CoefficientMotion& motion);
 
 } // namespace phonomime
