@@ -8,9 +8,9 @@
 #include "db/types/text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -31,21 +31,24 @@ std::vector<std::string> read_header(const CsvTable& table) {
     table.fail("this is not the header of a Live Link Face table",
                "Timecode,BlendShapeCount,EyeBlinkLeft,...", quoted(header[0]));
   }
-  const std::vector<std::string> known(kLiveLinkColumns.begin(), kLiveLinkColumns.end());
+  std::map<std::string, std::string, std::less<>> known; // lower case -> Epic's spelling
+  for (const std::string_view name : kLiveLinkColumns) {
+    known.emplace(to_lower(name), name);
+  }
   std::vector<std::string> names;
   std::set<std::string> seen;
   for (std::size_t i = kFirstValue; i < header.size(); ++i) {
-    const auto found = std::ranges::find_if(
-        known, [&](const std::string& name) { return to_lower(name) == to_lower(header[i]); });
+    const auto found = known.find(to_lower(header[i]));
     if (found == known.end()) {
+      const std::vector<std::string> candidates(kLiveLinkColumns.begin(), kLiveLinkColumns.end());
       table.fail(fmt::format("column {} is not a Live Link Face value", quoted(header[i])),
                  "one of ARKit's 52 blendshapes or an angle of head or eyes", {},
-                 did_you_mean(header[i], known));
+                 did_you_mean(header[i], candidates));
     }
-    if (!seen.insert(*found).second) {
-      table.fail(fmt::format("column {} is there twice", quoted(*found)));
+    if (!seen.insert(found->second).second) {
+      table.fail(fmt::format("column {} is there twice", quoted(found->second)));
     }
-    names.push_back(*found);
+    names.push_back(found->second);
   }
   return names;
 }

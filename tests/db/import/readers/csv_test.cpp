@@ -11,6 +11,11 @@
 namespace phonomime {
 namespace {
 
+struct Case {
+  std::string text;
+  const char* message;
+};
+
 MotionClip read(const std::string& text) {
   return parse_marker_csv(text, "m.csv");
 }
@@ -70,7 +75,7 @@ TEST(MarkerCsv, RateFromRoundedTimes) {
 
 TEST(MarkerCsv, HostileFiles) {
   const std::string header = "time,a_x,a_y,a_z\n";
-  const std::vector<std::pair<std::string, const char*>> cases = {
+  const std::vector<Case> cases = {
       {"", "the table is empty"},
       {"\n\n", "the table is empty"},
       {"frame,a\n0,1\n1,1\n", "m.csv:1: the first column is not the time"},
@@ -100,9 +105,9 @@ TEST(MarkerCsv, HostileFiles) {
       {"time,w,\n0,1,2\n", "column 3 has no name"},
       {"time,\"w\n0,1\n", "m.csv:1: a quote has no end on its line"},
   };
-  for (const auto& [text, message] : cases) {
-    SCOPED_TRACE(message);
-    test::expect_error([&] { read(text); }, message);
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.message);
+    test::expect_error([&] { read(c.text); }, c.message);
   }
 }
 

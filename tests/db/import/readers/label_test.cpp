@@ -8,6 +8,11 @@
 namespace phonomime {
 namespace {
 
+struct Case {
+  std::string text;
+  const char* message;
+};
+
 struct Row {
   std::string label;
   double start_s;
@@ -43,7 +48,7 @@ TEST(Xlabel, HeadersSeparatorsAndMissingLabels) {
 }
 
 TEST(Xlabel, HostileFiles) {
-  const std::vector<std::pair<std::string, const char*>> cases = {
+  const std::vector<Case> cases = {
       {"", "the header of the xlabel file has no end"},
       {"0.5 100 pau\n", "the header of the xlabel file has no end"},
       {"#\n", "the alignment has no rows"},
@@ -59,9 +64,9 @@ TEST(Xlabel, HostileFiles) {
       {"#\n1e999 100 pau\n", "u.lab:2: this is not a row"},
       {"#\n0.5 100 \xC3\n", "is not well-formed UTF-8"},
   };
-  for (const auto& [text, message] : cases) {
-    SCOPED_TRACE(message);
-    test::expect_error([&] { parse_xlabel(text, "u.lab"); }, message);
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.message);
+    test::expect_error([&] { parse_xlabel(c.text, "u.lab"); }, c.message);
   }
 }
 
@@ -79,7 +84,7 @@ TEST(HtkLabel, SecondsWhereTheyCannotBeAnythingElse) {
 }
 
 TEST(HtkLabel, HostileFiles) {
-  const std::vector<std::pair<std::string, const char*>> cases = {
+  const std::vector<Case> cases = {
       {"", "the alignment has no rows"},
       {"0 1 sil\n1 2 b\n", "the labels would last 0.0002 ms in all"},
       {"0 40000 sil\n", "integer times in 100 ns (HTK), or seconds with a decimal point"},
@@ -95,9 +100,9 @@ TEST(HtkLabel, HostileFiles) {
       {"0.9175 100 pau\n1.0075 100 b\n", "u.lab:2: the row overlaps"},
       {"sil\n", "A Festival/xlabel file has a header that ends with a line `#`."},
   };
-  for (const auto& [text, message] : cases) {
-    SCOPED_TRACE(message);
-    test::expect_error([&] { parse_htk_label(text, "u.lab"); }, message);
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.message);
+    test::expect_error([&] { parse_htk_label(c.text, "u.lab"); }, c.message);
   }
 }
 

@@ -12,6 +12,11 @@
 namespace phonomime {
 namespace {
 
+struct Case {
+  std::string text;
+  const char* message;
+};
+
 constexpr const char* kTwoValues = "Timecode,BlendShapeCount,JawOpen,HeadYaw\n";
 
 std::string timecode(double time_s, double ticks_per_second = 60.0, int digits = 3) {
@@ -108,7 +113,7 @@ TEST(LiveLink, NamesInAnyCaseComeOutCanonical) {
 
 TEST(LiveLink, HostileFiles) {
   const std::string h = kTwoValues;
-  const std::vector<std::pair<std::string, const char*>> cases = {
+  const std::vector<Case> cases = {
       {"Timecode,Count,JawOpen\n", "take.csv:1: this is not the header of a Live Link Face table"},
       {"Timecode,BlendShapeCount\n", "this is not the header of a Live Link Face table"},
       {"Timecode,BlendShapeCount,JawOpne\n", "Did you mean \"JawOpen\""},
@@ -133,9 +138,9 @@ TEST(LiveLink, HostileFiles) {
       {h + "01:00:00:00,2,0,0\n01:00:00:01,2,zero,0\n",
        "column \"JawOpen\" does not hold a number"},
   };
-  for (const auto& [text, message] : cases) {
-    SCOPED_TRACE(message);
-    test::expect_error([&] { read(text); }, message);
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.message);
+    test::expect_error([&] { read(c.text); }, c.message);
   }
 }
 

@@ -84,6 +84,10 @@ TEST(TextGrid, TierByName) {
   test::expect_error([&] { label("saxophones"); }, "\"words\", \"bells\" (points), \"saxophones\"");
 }
 
+TEST(TextGrid, PointsCalledPhonesAreNotMeant) {
+  expect_sample(read(replaced(kLongTextGrid, "\"bells\"", "\"phones\"")));
+}
+
 TEST(TextGrid, TierGiven) {
   EXPECT_EQ(read(kLongTextGrid, "words").rows[0].label, "the \"go\" sign");
   EXPECT_EQ(read(kLongTextGrid, "WORDS").rows[0].label, "the \"go\" sign");
