@@ -4,8 +4,8 @@
 #include "synth/search/vector_dispatch.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <Eigen/SVD>
@@ -93,33 +93,51 @@ Clustering cluster_markers(const MotionTable& table) {
   return result;
 }
 
+// Eight floats that the compiler keeps in vector registers of whatever width there is.
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+
+inline void load(Lanes& lanes, const float* from) {
+  std::memcpy(&lanes, from, sizeof lanes);
+}
+
+// The sum over clusters of the norm of the difference, for poses and velocities, in eight lanes:
+// cluster k in lane k mod 8.
+template <int kAxes>
+inline void add_norms(const float* a, const float* b, std::size_t stride, Lanes& sum) {
+  for (std::size_t half = 0; half < 2; ++half) {
+    for (std::size_t k = 0; k < stride; k += kLanes) {
+      Lanes square = {};
+      for (int axis = 0; axis < kAxes; ++axis) {
+        const std::size_t at = static_cast<std::size_t>(axis) * stride + k;
+        Lanes from, to;
+        load(from, a + at);
+        load(to, b + at);
+        const Lanes difference = to - from;
+        square += difference * difference;
+      }
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        square[lane] = std::sqrt(square[lane]);
+      }
+      sum += square;
+    }
+    a += static_cast<std::size_t>(kAxes) * stride;
+    b += static_cast<std::size_t>(kAxes) * stride;
+  }
+}
+
 PHONOMIME_DISPATCHED
 void bound_kernel(const float* end, const float* ends, std::size_t count, std::size_t stride,
                   int axes, float margin, float* bounds) {
   const std::size_t end_floats = 2 * static_cast<std::size_t>(axes) * stride;
   for (std::size_t i = 0; i < count; ++i) {
-    const float* other = ends + i * end_floats;
-    std::array<float, kLanes> sum{};
-    for (std::size_t half = 0; half < 2; ++half) {
-      const std::size_t plane = half * static_cast<std::size_t>(axes) * stride;
-      for (std::size_t k = 0; k < stride; k += kLanes) {
-        std::array<float, kLanes> square{};
-        for (int axis = 0; axis < axes; ++axis) {
-          const std::size_t at = plane + static_cast<std::size_t>(axis) * stride + k;
-          for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const float difference = other[at + lane] - end[at + lane];
-            square[lane] += difference * difference;
-          }
-        }
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          sum[lane] += std::sqrt(square[lane]);
-        }
-      }
+    Lanes sum = {};
+    if (axes == 3) {
+      add_norms<3>(end, ends + i * end_floats, stride, sum);
+    } else {
+      add_norms<1>(end, ends + i * end_floats, stride, sum);
     }
-    float total = 0.0f;
-    for (const float lane : sum) {
-      total += lane;
-    }
+    const float total =
+        ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
     bounds[i] = std::max(0.0f, total * (1.0f - kRelativeMargin) - margin);
   }
 }
