@@ -8,12 +8,13 @@ import re
 from tree import Findings, folder_of
 
 TEST_NAMES = ("_test.cpp", "_test.py", "_test.mjs", "_test.sh")
+VARIABLE = re.compile(r"^\$\{\w+\}/")
 PRESETS = {"dev", "release", "asan", "tsan"}
 
 
 def words(tree, path):
-    """The words of a CMake file, without its comments."""
-    return {word.strip('"') for _, line in tree.lines(path)
+    """The words of a CMake file, without its comments and without a leading ${VARIABLE}/."""
+    return {VARIABLE.sub("", word.strip('"')) for _, line in tree.lines(path)
             for word in re.split(r"[\s()]+", line.split("#")[0]) if word}
 
 
@@ -27,7 +28,7 @@ def check_tests_are_registered(tree):
         """In a CMake file beside or above it; a list may be included from further up."""
         return any(path.startswith(folder_of(cmake_file) + "/")
                    and any(f"/{path}".endswith("/" + word) for word in found)
-                   or any(word.endswith("}/" + path) for word in found)
+                   or path in found
                    for cmake_file, found in named.items())
 
     problems = [f"{test}: no CMake file names it" for test in tests if not is_named(test)]

@@ -49,21 +49,24 @@ def commands(tree, path):
 
 
 def help_text(phonomime, *verb):
-    """What a verb says of itself, or None where there is no such verb."""
+    """What the program or a verb says of itself, None where it fails."""
     run = subprocess.run([phonomime, *verb, "--help"], capture_output=True, text=True, check=False,
                          stdin=subprocess.DEVNULL)
     return run.stdout if run.returncode == 0 else None
 
 
+def verbs(phonomime):
+    text = help_text(phonomime) or ""
+    return set(re.findall(r"^  (\w+) {2,}", text.partition("Subcommands:")[2], re.MULTILINE))
+
+
 def problems_of_phonomime(phonomime, words):
-    if words[0].startswith("-"):
-        text, verb, rest = help_text(phonomime), "", words
-    else:
-        text, verb, rest = help_text(phonomime, words[0]), words[0], words[1:]
-    if text is None:
-        return [f"there is no verb {verb}"]
+    verb = [] if words[0].startswith("-") else words[:1]
+    if verb and verb[0] not in verbs(phonomime):
+        return [f"there is no verb {verb[0]}"]
+    text = help_text(phonomime, *verb) or ""
     known = set(OPTION.findall(text.replace(",", " ")))
-    return [f"phonomime {verb} has no option {option}" for option in rest
+    return [f"phonomime {' '.join(verb)} has no option {option}" for option in words
             if option.startswith("-") and option.split("=")[0] not in known]
 
 
@@ -96,8 +99,7 @@ def check_commands(tree, phonomime):
 
 def check_verbs(tree, phonomime):
     """README's table of verbs is the program's."""
-    text = help_text(phonomime) or ""
-    in_help = set(re.findall(r"^  (\w+) {2,}", text.partition("Subcommands:")[2], re.MULTILINE))
+    in_help = verbs(phonomime)
     in_table = {match[1] for _, line in tree.lines("README.md") if (match := VERB_ROW.match(line))}
     problems = [f"README.md: no verb {verb} in the program" for verb in sorted(in_table - in_help)]
     problems += [f"README.md: verb {verb} is not in the table" for verb in sorted(in_help - in_table)]
