@@ -42,10 +42,6 @@ void append_row(Alignment& alignment, AlignedLabel row) {
     fail("the row ends before it begins", fmt::format("an end after {} s", row.start_s),
          fmt::format("{} s", row.end_s));
   }
-  if (row.end_s == row.start_s) {
-    fail(fmt::format("the row {} has no duration", quoted(row.label)),
-         fmt::format("an end after {} s", row.start_s), fmt::format("{} s", row.end_s));
-  }
   alignment.rows.push_back(std::move(row));
 }
 

@@ -141,6 +141,15 @@ std::vector<TimedPhoneme> to_phonemes(const Alignment& alignment, const PhonemeS
                         .got = fmt::format("{} s to {} s", format_number(row.start_s),
                                            format_number(row.end_s))});
     }
+    if (row.end_s == row.start_s) {
+      if (index == 0) {
+        continue; // Festival ends a sentence that already ends in silence with such a row
+      }
+      throw InputError({.where = where,
+                        .what = fmt::format("phoneme {} has no duration", quoted(row.label)),
+                        .expected = fmt::format("an end after {} s", format_number(row.start_s)),
+                        .got = format_number(row.end_s) + " s"});
+    }
     double start_s = row.start_s;
     if (start_s - end_s >= kClosedGap_s) {
       phonemes.push_back({.phoneme = set.phonemes()[0], .start_s = end_s, .end_s = start_s});

@@ -69,7 +69,8 @@ struct TimedPhoneme {
 
 // The alignment's rows as phonemes, with /pau/ wherever it leaves out time (before the first row,
 // between rows; gaps under 1 microsecond are closed). Each row of the file stays one row, silence
-// too. Throws InputError for an unknown symbol: file, line, set and the nearest candidates.
+// too, but silence of no duration, which is left out. Throws InputError for an unknown symbol (file,
+// line, set and the nearest candidates) and for any other phoneme of no duration.
 std::vector<TimedPhoneme> to_phonemes(const Alignment& alignment, const PhonemeSet& set);
 
 }  // namespace phonomime

@@ -272,6 +272,18 @@ TEST(ToPhonemes, AnUnknownSymbolNamesThePlaceAndTheNearest) {
             "u17.lab:5: phoneme \"\xC3\x98\" is not in set festival_us");
 }
 
+TEST(ToPhonemes, SilenceOfNoDurationIsLeftOutAndNothingElseIs) {
+  const PhonemeSet set = PhonemeSet::built_in("festival_us");
+  const std::vector<TimedPhoneme> phonemes =
+      to_phonemes(alignment({{"b", 0.0, 0.2}, {"pau", 0.2, 0.5}, {"pau", 0.5, 0.5}}), set);
+  ASSERT_EQ(phonemes.size(), 2u);
+  EXPECT_EQ(phonemes[1].end_s, 0.5);
+  EXPECT_NE(input_error([&] {
+              to_phonemes(alignment({{"pau", 0.0, 0.1}, {"b", 0.1, 0.1}}), set);
+            }).find("u17.lab:6: phoneme \"b\" has no duration"),
+            std::string::npos);
+}
+
 TEST(ToPhonemes, TimesThatRunBackwardsAreRefused) {
   const PhonemeSet set = PhonemeSet::built_in("arpabet");
   EXPECT_THROW(to_phonemes(alignment({{"b", 0.0, 0.2}, {"t", 0.1, 0.3}}), set), InputError);
