@@ -17,6 +17,9 @@ std::string join_word(const nlohmann::json& row, bool first) {
   if (row["node"].is_null()) {
     return "rest";
   }
+  if (row["phoneme"].get_ref<const std::string&>() == "pau" && !row["constrained"].get<bool>()) {
+    return "pause";
+  }
   if (row["captured"].get<bool>()) {
     return "captured";
   }

@@ -4,6 +4,7 @@
 #include "db/types/errors.h"
 #include "db/types/file_io.h"
 #include "db/types/text.h"
+#include "synth/export/audio.h"
 #include "synth/export/glb.h"
 #include "synth/export/motion_csv.h"
 #include "synth/export/player_document.h"
@@ -94,17 +95,6 @@ std::vector<PlayerDocument::Emotion> emotion_spans(const MotionTable& table,
   return spans;
 }
 
-std::string read_wav(const std::filesystem::path& path) {
-  std::string bytes = read_file(path);
-  if (bytes.size() < 44 || !bytes.starts_with("RIFF") || bytes.compare(8, 4, "WAVE") != 0) {
-    throw InputError({.where = path.string(),
-                      .what = "is not a WAV file",
-                      .expected = "RIFF/WAVE sound",
-                      .remedy = "Convert it, for instance with `ffmpeg -i IN OUT.wav`."});
-  }
-  return bytes;
-}
-
 std::string face_note(const MarkerFace& face, const PcaModel& pca) {
   std::string note =
       fmt::format("face {}: {} vertices", face.mesh().source, face.mesh().skin_vertex_count());
@@ -147,7 +137,7 @@ SynthOutputs::SynthOutputs(const SynthOptions& options, const MotionTable& table
     notes.push_back(face_note(*face_, table.pca));
   }
   if (!options.audio.empty()) {
-    wav_ = read_wav(options.audio);
+    wav_ = read_audio(options.audio).bytes;
   }
 }
 
