@@ -260,6 +260,13 @@ TEST(ToPhonemes, TimeLeftOutIsSilence) {
   EXPECT_EQ(phonemes[5].end_s, 1.5);
 }
 
+TEST(ToPhonemes, GapsUnderAMicrosecondAreClosed) {
+  const PhonemeSet set = PhonemeSet::built_in("arpabet");
+  EXPECT_EQ(to_phonemes(alignment({{"b", 0.0, 0.5}, {"t", 0.5000009, 1.0}}), set).size(), 2u);
+  EXPECT_EQ(to_phonemes(alignment({{"b", 0.0, 0.5}, {"t", 0.5000011, 1.0}}), set).size(), 3u);
+  EXPECT_EQ(to_phonemes(alignment({{"b", 9e-7, 0.5}}), set).front().start_s, 0.0);
+}
+
 TEST(ToPhonemes, AnUnknownSymbolNamesThePlaceAndTheNearest) {
   const PhonemeSet set = PhonemeSet::built_in("festival_us");
   EXPECT_EQ(input_error([&] {
