@@ -82,6 +82,8 @@ TEST(MotionTable, UnknownKeysNameTheNearest) {
   EXPECT_NE(find_error("lona#1").find("Did you mean s1/neutral/lone#1?"), std::string::npos);
   EXPECT_NE(find_error("angr/bbaf2n#1").find("Did you mean s1/anger/bbaf2n#1"), std::string::npos);
   EXPECT_NE(find_error("s2/anger/bbaf2n#1").find("of speaker \"s1\""), std::string::npos);
+  EXPECT_NE(find_error("ger/bbaf2n#1").find("there is no motion node"), std::string::npos);
+  EXPECT_NE(find_error("one#5").find("there is no motion node"), std::string::npos);
   EXPECT_NE(find_error("baf2n#1").find("there is no motion node"), std::string::npos)
       << "a part is left out whole";
   for (const char* key : {"", "#1", "bbaf2n", "bbaf2n#", "bbaf2n#x", "bbaf2n#-1", "bbaf2n#1.0",
