@@ -28,8 +28,8 @@ Alignment read_alignment(const std::filesystem::path& path, const AlignmentOptio
 MotionClip read_motion(const std::filesystem::path& path);
 
 // The same from bytes already in memory; `where` names them in errors. All text is UTF-8, or UTF-16
-// with a byte order mark. A row that ends before it begins is an error, as are rows that overlap. Gaps
-// between rows are allowed (silence); of rows without a duration to_phonemes judges.
+// with a byte order mark. A row that ends before it begins is an error, as are rows that overlap.
+// Gaps between rows are allowed (silence); of rows without a duration to_phonemes judges.
 
 // Festival/xlabel: header lines, a line `#`, then rows `end_time number label`. The first row
 // starts at 0; a row without a label has the label "" (silence); what follows the separator (`;`

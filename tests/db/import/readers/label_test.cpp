@@ -47,6 +47,12 @@ TEST(Xlabel, HeadersSeparatorsAndMissingLabels) {
   expect_rows(parse_xlabel("separator |\n#\n0.5 26 a;b | c\n", "u.lab"), {{"a;b", 0.0, 0.5, 3}});
 }
 
+// Festival ends some files so; what is done about it is not the reader's to say.
+TEST(Xlabel, RowsWithoutDurationAreGivenAsTheyAre) {
+  expect_rows(parse_xlabel("#\n0.5 100 b\n0.5 100 pau\n", "u.lab"),
+              {{"b", 0.0, 0.5, 2}, {"pau", 0.5, 0.5, 3}});
+}
+
 TEST(Xlabel, HostileFiles) {
   const std::vector<Case> cases = {
       {"", "the header of the xlabel file has no end"},
