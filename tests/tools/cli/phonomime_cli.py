@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Running the program in tests: $PHONOMIME is its path, set by CMakeLists.txt.
+
+A test file ends with `phonomime_cli.main()`: exit status 77 (ctest's SKIP_RETURN_CODE) where every
+test was skipped, 1 where one failed or none was found.
+"""
+import hashlib
+import json
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = os.environ.get("PHONOMIME", "phonomime")
+SOURCE_DIR = pathlib.Path(__file__).resolve().parents[3]
+TIME_LIMIT_S = 300
+
+DONE, USAGE, BAD_INPUT, IO, INTERNAL, INTERRUPTED = 0, 2, 3, 4, 5, 130
+KINDS = ("csv", "glb", "html", "json", "txt")
+
+
+def _shared_data():
+    folder = pathlib.Path(os.environ.get("PHONOMIME_SHARED_DATA", SOURCE_DIR.parent / "shared" / "data"))
+    return folder.resolve() if folder.is_dir() else None
+
+
+SHARED_DATA = _shared_data()
+needs_shared_data = unittest.skipIf(
+    SHARED_DATA is None, "skipped: needs the recordings in ../shared/data, which are not here")
+
+
+def run(*arguments, **options):
+    """The program's CompletedProcess; stdout and stderr are text, stdin is empty."""
+    return subprocess.run(
+        [PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE, text=True, timeout=TIME_LIMIT_S, check=False, **options)
+
+
+def run_well(*arguments):
+    """Its stdout; an AssertionError where it does not succeed."""
+    result = run(*arguments)
+    if result.returncode != DONE:
+        raise AssertionError(f"phonomime {' '.join(map(str, arguments))}: status {result.returncode}\n{result.stderr}")
+    return result.stdout
+
+
+def run_json(*arguments):
+    return json.loads(run_well(*arguments, "--json"))
+
+
+def limit_file_size(size_bytes):
+    """For `preexec_fn`: writing beyond this size fails, as on a full disk."""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size_bytes, size_bytes))
+    return limit
+
+
+def _digest(path):
+    data = bytearray(path.read_bytes())
+    if data.startswith(b"SQLite format 3\0"):
+        data[24:28] = data[92:96] = b"\0\0\0\0"  # SQLite counts there how often the file was taken in hand
+    return hashlib.sha256(data).hexdigest()
+
+
+def seal(test, folder):
+    """Makes a folder read-only for the rest of a test, for root too; skips the test where it cannot."""
+    os.chmod(folder, 0o500)
+    if os.geteuid() != 0:
+        test.addCleanup(os.chmod, folder, 0o700)
+        return
+    chattr = shutil.which("chattr")
+    if not chattr or subprocess.run([chattr, "+i", folder], capture_output=True, check=False).returncode != 0:
+        test.skipTest("skipped: root may write to every folder here, and chattr does not work")
+    test.addCleanup(subprocess.run, [chattr, "-i", folder], check=True)
+
+
+def contents(folder):
+    """What is in a folder: {relative path: SHA-256, a link's target, or None for a folder}."""
+    found = {}
+    for path in sorted(pathlib.Path(folder).rglob("*")):
+        name = str(path.relative_to(folder))
+        if path.is_symlink():
+            found[name] = os.readlink(path)
+        else:
+            found[name] = _digest(path) if path.is_file() else None
+    return found
+
+
+def without_timings(result):
+    """A result without its only field that may differ from run to run."""
+    copy = json.loads(json.dumps(result))
+    del copy["search"]["seconds"]
+    return copy
+
+
+def state(database):
+    """All that the program tells of a database, but its path and the hour of its imports."""
+    info = run_json("info", database)
+    del info["database"]
+    for corpus in info["corpora"]:
+        del corpus["imported_at"]
+    return info, run_json("nodes", database)
+
+
+def write_lab(path, rows):
+    """An xlabel file of (end in seconds, label)."""
+    path.write_text("#\n" + "".join(f"{end:.4f} 100 {label}\n" for end, label in rows))
+    return path
+
+
+def write_transcript(path, phonemes, each_s=0.1, rest_s=0.3):
+    """An xlabel file of phonemes of the same length, with silence at both ends."""
+    ends = [rest_s + each_s * (i + 1) for i in range(len(phonemes))]
+    return write_lab(path, [(rest_s, "pau"), *zip(ends, phonemes), (ends[-1] + rest_s, "pau")])
+
+
+class CliTest(unittest.TestCase):
+    """Tests with a folder of their own, `self.folder`."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="phonomime_cli_"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def assertRefused(self, status, words, *arguments, **options):
+        """One line on stderr with all of the words, nothing on stdout, this status, and every file of
+        self.folder as it was. Returns the line."""
+        before = contents(self.folder)
+        result = run(*arguments, **options)
+        said = f"phonomime {' '.join(map(str, arguments))}\nstatus {result.returncode}: {result.stderr}"
+        self.assertEqual(result.returncode, status, said)
+        self.assertEqual(result.stdout, "", said)
+        self.assertEqual(result.stderr.count("\n"), 1, said)
+        self.assertTrue(result.stderr.startswith("phonomime: "), said)
+        self.assertTrue(result.stderr.endswith("\n"), said)
+        for word in words:
+            self.assertIn(str(word), result.stderr, said)
+        self.assertEqual(contents(self.folder), before, said)
+        return result.stderr
+
+
+def main():
+    program = unittest.main(exit=False, verbosity=2)
+    result = program.result
+    if not result.wasSuccessful() or result.testsRun == 0:
+        sys.exit(1)
+    sys.exit(77 if len(result.skipped) == result.testsRun else 0)
