@@ -12,11 +12,11 @@ namespace phonomime {
 
 // A motion node before it has an index.
 struct ImportedNode {
-  std::int32_t row = 0;    // of ImportedSentence::rows; the `order` of the node's key
-  std::int32_t first_frame = 0;  // into the sentence's frames
+  std::int32_t row = 0;         // of ImportedSentence::rows; the `order` of the node's key
+  std::int32_t first_frame = 0; // into the sentence's frames
   std::int32_t frame_count = 0;
-  bool has_gap = false;              // holds frames whose gaps were too long to fill
-  std::vector<std::string> suspect;  // why it is suspect; empty = it is not
+  bool has_gap = false;             // holds frames whose gaps were too long to fill
+  std::vector<std::string> suspect; // why it is suspect; empty = it is not
 };
 
 // One sentence as the importer hands it to the store: at the database rate, head motion off.
@@ -25,12 +25,12 @@ struct ImportedSentence {
   std::string emotion;
   std::string id;
   std::string text;
-  std::string audio;               // absolute path of the recording's WAV, or empty
-  std::vector<TimedPhoneme> rows;  // the alignment, silence too, from 0 to the end
-  std::vector<ImportedNode> nodes; // in order of row
-  FrameMatrix channels;            // #frames by #channels, mm or weights; finite everywhere
-  std::vector<std::uint8_t> frame_has_gap;  // #frames; 1 = some channel was missing and not filled
-  std::vector<HeadPose> head;      // #frames for markers, empty for weights
+  std::string audio;                       // absolute path of the recording's WAV, or empty
+  std::vector<TimedPhoneme> rows;          // the alignment, silence too, from 0 to the end
+  std::vector<ImportedNode> nodes;         // in order of row
+  FrameMatrix channels;                    // #frames by #channels, mm or weights; finite everywhere
+  std::vector<std::uint8_t> frame_has_gap; // #frames; 1 = some channel was missing and not filled
+  std::vector<HeadPose> head;              // #frames for markers, empty for weights
 };
 
-}  // namespace phonomime
+} // namespace phonomime

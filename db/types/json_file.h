@@ -15,6 +15,7 @@ nlohmann::json parse_json(std::string_view text, std::string_view where);
 void validate_json(const nlohmann::json& value, std::string_view schema, std::string_view where);
 
 // Both.
-nlohmann::json parse_json_as(std::string_view schema, std::string_view text, std::string_view where);
+nlohmann::json parse_json_as(std::string_view schema, std::string_view text,
+                             std::string_view where);
 
-}  // namespace phonomime
+} // namespace phonomime

@@ -34,17 +34,17 @@ struct AxisSource {
 // in mm, x to the right of the picture, y up, z towards the camera.
 struct Layout {
   LayoutKind kind = LayoutKind::markers;
-  double unit_mm = 1.0;                      // size of the files' unit (markers only)
+  double unit_mm = 1.0; // size of the files' unit (markers only)
   std::array<AxisSource, 3> axes = {{{0, 1.0}, {1, 1.0}, {2, 1.0}}};
-  std::string reference;                     // reference marker; may be empty
+  std::string reference; // reference marker; may be empty
   std::vector<ChannelGroup> groups;
-  std::map<std::string, std::string, std::less<>> landmarks;  // landmark -> group name
+  std::map<std::string, std::string, std::less<>> landmarks; // landmark -> group name
 
   int channels_per_group() const { return kind == LayoutKind::markers ? 3 : 1; }
   int group_count() const { return static_cast<int>(groups.size()); }
   int channel_count() const { return group_count() * channels_per_group(); }
   std::optional<int> find_group(std::string_view name) const;
-  std::optional<int> find_landmark(std::string_view landmark) const;  // index into groups
+  std::optional<int> find_landmark(std::string_view landmark) const; // index into groups
   std::vector<int> groups_in(Region region) const;
 };
 
@@ -55,4 +55,4 @@ Layout parse_layout(std::string_view json_text, std::string_view where);
 // The text that parse_layout reads back as the same layout (in mm and in our axes).
 std::string format_layout(const Layout& layout);
 
-}  // namespace phonomime
+} // namespace phonomime

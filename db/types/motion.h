@@ -23,11 +23,11 @@ struct HeadPose {
 // Frame k is at start_s + k / rate_hz.
 struct MotionClip {
   double rate_hz = 0.0;
-  double start_s = 0.0;              // time of frame 0 on the file's own clock, 0 where it has none
-  std::vector<std::string> groups;   // marker or weight names, in the order of the channels
-  int channels_per_group = 3;        // 3 markers, 1 weights
-  double unit_mm = 0.0;              // size of the file's unit where the file says it, else 0
-  FrameMatrix frames;                // #frames by #groups * channels_per_group; NaN = missing
+  double start_s = 0.0;            // time of frame 0 on the file's own clock, 0 where it has none
+  std::vector<std::string> groups; // marker or weight names, in the order of the channels
+  int channels_per_group = 3;      // 3 markers, 1 weights
+  double unit_mm = 0.0;            // size of the file's unit where the file says it, else 0
+  FrameMatrix frames;              // #frames by #groups * channels_per_group; NaN = missing
 
   Eigen::Index frame_count() const { return frames.rows(); }
   double duration_s() const { return static_cast<double>(frames.rows()) / rate_hz; }
@@ -59,4 +59,4 @@ struct CoefficientMotion {
   std::vector<HeadPose> head; // #frames, or empty where the head rests
 };
 
-}  // namespace phonomime
+} // namespace phonomime

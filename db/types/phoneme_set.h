@@ -12,7 +12,7 @@ namespace phonomime {
 
 // How much of a phoneme is seen on the face (E Table IV), with its smoothing weight of E16.
 enum class Visibility { high, intermediate, low };
-inline double smoothing_weight(Visibility visibility) {  // E Table IV
+inline double smoothing_weight(Visibility visibility) { // E Table IV
   return visibility == Visibility::high ? 2.0 : visibility == Visibility::low ? 0.5 : 1.0;
 }
 
@@ -20,8 +20,8 @@ inline constexpr std::string_view kSilence = "pau";
 
 // A phoneme as the database knows it.
 struct Phoneme {
-  std::string name;    // "aa"
-  std::string viseme;  // one of the 15 of E Table VI, named by its first phoneme, or a user's own
+  std::string name;   // "aa"
+  std::string viseme; // one of the 15 of E Table VI, named by its first phoneme, or a user's own
   Visibility visibility = Visibility::intermediate;
   bool operator==(const Phoneme&) const = default;
 };
@@ -69,8 +69,8 @@ struct TimedPhoneme {
 
 // The alignment's rows as phonemes, with /pau/ wherever it leaves out time (before the first row,
 // between rows; gaps under 1 microsecond are closed). Each row of the file stays one row, silence
-// too, but silence of no duration, which is left out. Throws InputError for an unknown symbol (file,
-// line, set and the nearest candidates) and for any other phoneme of no duration.
+// too, but silence of no duration, which is left out. Throws InputError for an unknown symbol
+// (file, line, set and the nearest candidates) and for any other phoneme of no duration.
 std::vector<TimedPhoneme> to_phonemes(const Alignment& alignment, const PhonemeSet& set);
 
-}  // namespace phonomime
+} // namespace phonomime

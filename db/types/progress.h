@@ -30,4 +30,4 @@ struct Progress {
   }
 };
 
-}  // namespace phonomime
+} // namespace phonomime
