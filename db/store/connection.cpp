@@ -179,7 +179,6 @@ void Connection::open_read_write(std::span<const Migration> migrations) {
   }
   made_new_ = migrate(*database_, migrations, where_);
   database_->exec(kWritePragmas);
-  check_still_there();
 }
 
 void Connection::check_length() const {
@@ -201,17 +200,6 @@ void Connection::begin_writing() {
                    .what = "the database cannot be switched to write-ahead logging",
                    .remedy = "Use a local disk: network folders often lack the shared memory it "
                              "needs."});
-  }
-}
-
-void Connection::check_still_there() const {
-  int has_moved = 0;
-  database_->check(
-      sqlite3_file_control(database_->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved));
-  if (has_moved != 0) {
-    throw IoError({.where = where_,
-                   .what = "another program has removed or replaced this database meanwhile",
-                   .remedy = "Try again."});
   }
 }
 

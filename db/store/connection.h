@@ -36,10 +36,6 @@ public:
   // WAL mode for an import. Throws SQLite::Exception (busy).
   void begin_writing();
 
-  // Throws IoError where the path no longer names the file that is open: to be called under the
-  // write lock, for another process may have taken its new, still empty file away.
-  void check_still_there() const;
-
   // Throws IoError where the disk has no room to bring the open transaction from the WAL into the
   // file: asked before COMMIT, for afterwards it is too late to say no.
   void check_space_for_checkpoint() const;

@@ -92,7 +92,6 @@ ImportState::ImportState(std::shared_ptr<Connection> to, Layout its_layout, doub
   end_writing.reset(connection.get());
   connection->begin_writing();
   transaction.emplace(connection->database(), SQLite::TransactionBehavior::IMMEDIATE);
-  connection->check_still_there();
   store_or_compare_settings(*connection, layout, rate_hz);
   corpus_id =
       connection->database().execAndGet("SELECT coalesce(max(id), 0) + 1 FROM corpora").getInt64();

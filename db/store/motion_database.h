@@ -32,9 +32,9 @@ struct CorpusRecord {
   std::string name;
   std::string phoneme_set;
   bool synthetic = false;
-  std::string imported_at; // UTC, ISO 8601
-  std::int64_t sentences = 0;
-  std::string report_json; // the import report, as JSON
+  std::string imported_at;    // UTC, ISO 8601; empty on commit: now, or $SOURCE_DATE_EPOCH
+  std::int64_t sentences = 0; // counted when read
+  std::string report_json;    // the import report, as JSON
 };
 
 // What `info` tells.
@@ -75,7 +75,8 @@ struct NodeRecord {
 
 class ImportTransaction;
 
-// The SQLite motion database (DESIGN 3). Movable, one thread at a time.
+// The SQLite motion database (DESIGN 3). Movable, one thread at a time. Its file is alone and whole
+// whenever no import is open; a new file is removed again where no import was committed to it.
 class MotionDatabase {
 public:
   // Throws InputError (not a Phonomime database, of a future version, damaged) and IoError.
@@ -119,14 +120,15 @@ public:
   std::optional<Eigen::VectorXd> reference_pose(const std::string& speaker) const;
   void set_reference_pose(const std::string& speaker, const Eigen::VectorXd& pose);
 
-  // A phoneme of the corpus' set. Throws InputError where the database knows it with another viseme
-  // or visibility.
+  // The phonemes of the corpus' set, /pau/ among them, before the first sentence. Throws InputError
+  // where the database knows one with another viseme or visibility.
   void add_phonemes(const std::vector<Phoneme>& phonemes);
 
   bool has_sentence(const std::string& speaker, const std::string& emotion,
                     const std::string& id) const;
 
-  // Throws InputError for a repeated (speaker, emotion, id).
+  // Throws InputError for a repeated (speaker, emotion, id), InternalError for a sentence whose
+  // parts do not fit each other, the layout or the phonemes that were added.
   void add_sentence(const ImportedSentence& sentence);
 
   // Channels of every sentence in the database (#frames by #channels) with its frame_has_gap, those
@@ -135,10 +137,12 @@ public:
       const std::function<void(const FrameMatrix& channels,
                                const std::vector<std::uint8_t>& frame_has_gap)>& visit) const;
 
-  // Stores the model and, for every sentence, its coefficients (float), computed in blocks.
+  // Stores the model and, for every sentence, its coefficients (float), computed in blocks by
+  // several threads. After the last sentence. Throws Interrupted.
   void set_pca(const PcaModel& pca, const Progress& progress);
 
-  // Marks maps and models stale, records the corpus, commits.
+  // Records the corpus and commits. Throws InputError where no sentence was added, InternalError
+  // where the PCA or a speaker's reference pose is missing, IoError (then nothing is changed).
   void commit(const CorpusRecord& corpus);
 
 private:

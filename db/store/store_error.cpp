@@ -35,6 +35,11 @@ void throw_translated(const SQLite::Exception& failure, const std::string& where
                    .what = "another program is writing to this database",
                    .remedy = "Wait until it is done, then try again."});
   case SQLITE_READONLY:
+    if (failure.getExtendedErrorCode() == SQLITE_READONLY_DBMOVED) {
+      throw IoError({.where = where,
+                     .what = "another program has removed or replaced this database meanwhile",
+                     .remedy = "Try again."});
+    }
     throw IoError({.where = where,
                    .what = "the database cannot be written",
                    .got = message,
