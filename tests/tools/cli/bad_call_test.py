@@ -1,10 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A call that asks for what cannot be is refused with one line, and no file is made or changed."""
-import json
-import os
 import pathlib
-import sqlite3
-import subprocess
 import tempfile
 
 import phonomime_cli as cli
@@ -239,23 +235,6 @@ class BadCallTest(cli.CliTest):
         cli.seal(self, sealed)
         self.outputs[1] = sealed / "new.glb"
         self.assertSynthRefused("sealed/new.glb", status=cli.IO)
-
-    def test_a_full_disk_for_the_outputs(self):
-        cli.run_well(*self.synth())
-        sizes = sorted(path.stat().st_size for path in self.outputs)
-        for limit in (0, 100, *(size - 1 for size in sizes)):
-            with self.subTest(limit=limit):
-                line = self.assertSynthRefused(status=cli.IO, preexec_fn=cli.limit_file_size(limit))
-                self.assertTrue(any(str(path) in line for path in self.outputs), line)
-
-    def test_a_full_disk_for_standard_output(self):
-        if not os.path.exists("/dev/full"):
-            self.skipTest("skipped: /dev/full is missing")
-        for arguments in (["info", self.database], ["nodes", self.database, "--json"], ["--help"]):
-            with self.subTest(arguments[0]), open("/dev/full", "w") as full:
-                result = subprocess.run([cli.PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
-                self.assertEqual(result.returncode, cli.IO)
-                self.assertRegex(result.stderr, r"^phonomime: standard output: .*\n$")
 
 
 if __name__ == "__main__":
