@@ -24,13 +24,14 @@ std::int64_t count_held(const SourceClock& clock, Eigen::Index recorded, double 
   return std::max<std::int64_t>(0, before) + (count - std::max<std::int64_t>(0, to_last));
 }
 
-// The spline must not swing beyond what was recorded where the ends mean something: a weight of 0
-// is nothing at all.
+// Neither the fill of a gap nor a low-pass may swing beyond what was recorded where the ends mean
+// something: a weight of 0 is nothing at all. `recorded` may lack values (NaN).
 void keep_recorded_range(FrameMatrixD& channels, const FrameMatrixD& recorded) {
-  const Eigen::RowVectorXd least = recorded.colwise().minCoeff();
-  const Eigen::RowVectorXd most = recorded.colwise().maxCoeff();
-  channels = channels.cwiseMax(least.replicate(channels.rows(), 1))
-                 .cwiseMin(most.replicate(channels.rows(), 1));
+  for (Eigen::Index c = 0; c < channels.cols(); ++c) {
+    const double least = recorded.col(c).minCoeff<Eigen::PropagateNumbers>();
+    const double most = recorded.col(c).maxCoeff<Eigen::PropagateNumbers>();
+    channels.col(c) = channels.col(c).cwiseMax(least).cwiseMin(most);
+  }
 }
 
 // A node with a gap stays out of the PCA whole: its other frames are marked too.
@@ -84,7 +85,7 @@ PreparedSentence prepare(std::size_t index, RecordedSentence& recorded,
   made.nodes = cut_into_nodes(recorded.rows, context.rate_hz, sentence.where);
   FrameMatrixD channels = resample(filled.frames, recorded.clock, context.rate_hz, count);
   if (context.corpus.layout.kind == LayoutKind::weights) {
-    keep_recorded_range(channels, filled.frames);
+    keep_recorded_range(channels, recorded.frames);
   }
   made.channels = channels.cast<float>();
   made.frame_has_gap = resample_marks(filled.frame_has_gap, recorded.clock, context.rate_hz, count);

@@ -14,6 +14,8 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,6 +33,7 @@ constexpr std::ptrdiff_t kFilesAtOnce = 16;
 struct Settled {
   double rate_hz = 0.0; // 0: nothing yet
   std::map<std::string, Eigen::VectorXd> references;
+  std::set<std::tuple<std::string, std::string, std::string>> sentences; // speaker, emotion, id
 };
 
 // Adds the time since the last call to the report's stages.
@@ -64,7 +67,11 @@ Settled look_into(const std::filesystem::path& path) {
   }
   settled.rate_hz = database.info().rate_hz;
   for (const std::string& speaker : database.speakers()) {
-    settled.references[speaker] = database.load_motion_table(speaker).reference_pose;
+    const MotionTable table = database.load_motion_table(speaker);
+    settled.references[speaker] = table.reference_pose;
+    for (const SentenceInfo& sentence : table.sentences) {
+      settled.sentences.insert({sentence.speaker, sentence.emotion, sentence.id});
+    }
   }
   return settled;
 }
@@ -156,9 +163,11 @@ void set_references(ImportTransaction& transaction, const Survey& survey,
   }
 }
 
-void check_new(const ImportTransaction& transaction, const Corpus& corpus) {
+// Found before the database is opened for writing; what another import may add in the meantime the
+// store refuses.
+void check_new(const Settled& settled, const Corpus& corpus) {
   for (const CorpusSentence& sentence : corpus.sentences) {
-    if (transaction.has_sentence(sentence.speaker, sentence.emotion, sentence.id)) {
+    if (settled.sentences.contains({sentence.speaker, sentence.emotion, sentence.id})) {
       throw InputError({.where = sentence.where,
                         .what = fmt::format("sentence {}/{}/{} is in the database already",
                                             sentence.speaker, sentence.emotion, sentence.id),
@@ -200,6 +209,7 @@ ImportReport import_corpus(const ImportOptions& options, const Progress& progres
   Stopwatch stopwatch;
   const Corpus corpus = read_corpus(options.corpus);
   const Settled settled = look_into(options.database);
+  check_new(settled, corpus);
   const Survey survey = survey_corpus(corpus, options.recordings, settled.references, progress);
   const SuspectLimits limits = suspect_limits(survey.usual, corpus.layout.kind);
   const double rate_hz = choose_rate(options, settled, survey);
@@ -209,7 +219,6 @@ ImportReport import_corpus(const ImportOptions& options, const Progress& progres
   MotionDatabase database = MotionDatabase::open(options.database, OpenMode::read_write);
   ImportTransaction transaction = database.begin_import(corpus.layout, rate_hz);
   transaction.add_phonemes(corpus.phoneme_set.phonemes());
-  check_new(transaction, corpus);
   set_references(transaction, survey, options.database);
   const PrepareContext context{.corpus = corpus,
                                .survey = survey,

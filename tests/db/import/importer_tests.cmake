@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+set(importer_tests_folder ${CMAKE_CURRENT_LIST_DIR}/importer)
+phonomime_test(importer_test
+  SOURCES
+    ${importer_tests_folder}/channels_test.cpp
+    ${importer_tests_folder}/corpus_test.cpp
+    ${importer_tests_folder}/gaps_test.cpp
+    ${importer_tests_folder}/head_test.cpp
+    ${importer_tests_folder}/nodes_test.cpp
+    ${importer_tests_folder}/pca_test.cpp
+    ${importer_tests_folder}/resample_test.cpp
+    ${importer_tests_folder}/suspect_test.cpp
+  LINKS phonomime_import fmt::fmt)
+phonomime_test(import_corpus_test
+  SOURCES
+    ${importer_tests_folder}/import_corpus_test.cpp
+    ${importer_tests_folder}/import_faults_test.cpp
+    ${importer_tests_folder}/import_recordings_test.cpp
+  LINKS phonomime_app phonomime_store phonomime_import fmt::fmt)
