@@ -29,7 +29,8 @@ struct ImportedSentence {
   std::vector<TimedPhoneme> rows;          // the alignment, silence too, from 0 to the end
   std::vector<ImportedNode> nodes;         // in order of row
   FrameMatrix channels;                    // #frames by #channels, mm or weights; finite everywhere
-  std::vector<std::uint8_t> frame_has_gap; // #frames; 1 = some channel was missing and not filled
+  std::vector<std::uint8_t> frame_has_gap; // #frames; 1 = out of the PCA: a channel was missing and
+                                           // not filled, here or elsewhere in its node
   std::vector<HeadPose> head;              // #frames for markers, empty for weights
 };
 
