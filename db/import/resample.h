@@ -15,12 +15,12 @@ struct SourceClock {
 };
 
 // `frames` (#recorded by #channels, finite) at the times k / rate_hz, k = 0 .. count - 1: count by
-// #channels. Upwards by the monotone cubic of Fritsch and Butland, channel by channel: at a recorded
-// time it is the recorded frame, and between two it stays within them, so that lips which touch do
-// not run through each other. (On 25 Hz recordings a C2 spline takes the lips up to 2 mm beyond the
-// recorded frames, and misses left-out frames by only 4 % less.) Downwards by a Kaiser-windowed sinc
-// that passes 0.9 of the new Nyquist frequency. Before the first and after the last recorded frame
-// these are held.
+// #channels. Upwards by the monotone cubic of Fritsch and Butland, channel by channel: at a
+// recorded time it is the recorded frame, and between two it stays within them, so that lips which
+// touch do not run through each other. (On 25 Hz recordings a C2 spline takes the lips up to 2 mm
+// beyond the recorded frames, and misses left-out frames by only 4 % less.) Downwards by a
+// Kaiser-windowed sinc that passes 0.9 of the new Nyquist frequency. Before the first and after the
+// last recorded frame these are held.
 FrameMatrixD resample(const FrameMatrixD& frames, const SourceClock& recorded, double rate_hz,
                       Eigen::Index count);
 
