@@ -34,4 +34,4 @@ std::vector<std::string_view> embedded_files(std::string_view folder) {
   return paths;
 }
 
-}  // namespace phonomime::corpora_schema
+} // namespace phonomime::corpora_schema

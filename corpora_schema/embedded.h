@@ -14,4 +14,4 @@ std::string_view embedded_file(std::string_view path);
 // The paths that start with `folder`, in alphabetical order.
 std::vector<std::string_view> embedded_files(std::string_view folder);
 
-}  // namespace phonomime::corpora_schema
+} // namespace phonomime::corpora_schema

@@ -81,11 +81,11 @@ double units_per_second(const std::vector<Row>& rows, bool has_decimal_point,
     return 1.0;
   }
   if (largest < kSmallestTotalTicks) {
-    throw InputError(
-        {.where = std::string(where),
-         .what = fmt::format("the labels would last {:.3g} ms in all", largest / kTicksPerSecond * 1e3),
-         .expected = "integer times in 100 ns (HTK), or seconds with a decimal point",
-         .remedy = std::string(kXlabelHint)});
+    throw InputError({.where = std::string(where),
+                      .what = fmt::format("the labels would last {:.3g} ms in all",
+                                          largest / kTicksPerSecond * 1e3),
+                      .expected = "integer times in 100 ns (HTK), or seconds with a decimal point",
+                      .remedy = std::string(kXlabelHint)});
   }
   return kTicksPerSecond;
 }

@@ -20,7 +20,7 @@ inline std::optional<std::filesystem::path> shared_data() {
   return std::nullopt;
 }
 
-}  // namespace phonomime::test
+} // namespace phonomime::test
 
 // At the top of a test that needs recordings from outside the repository.
 #define PHONOMIME_NEEDS_SHARED_DATA(folder)                                                        \
