@@ -242,7 +242,8 @@ void add_animation(GlbBuilder& builder, const CoefficientMotion& motion,
     std::vector<float> rotations;
     std::vector<float> translations;
     for (const HeadPose& pose : motion.head) {
-      for (const double value : pose.rotation.normalized().coeffs()) { // x, y, z, w, as glTF
+      const Eigen::Quaterniond rotation = pose.rotation.normalized(); // outlives the loop over it
+      for (const double value : rotation.coeffs()) {                  // x, y, z, w, as glTF
         rotations.push_back(static_cast<float>(value));
       }
       for (const double value : pose.translation_mm) {
