@@ -105,6 +105,23 @@ void fill_gaps_with_median(std::vector<double>& sigma) {
   std::ranges::replace(sigma, 0.0, median);
 }
 
+// #markers by #markers: the rows of the markers' own vertices, empty for one that has none.
+SpreadWeights rows_at(const SpreadWeights& weights, std::span<const int> marker_vertices) {
+  const auto count = static_cast<Eigen::Index>(marker_vertices.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int k = 0; k < count; ++k) {
+    const int vertex = marker_vertices[static_cast<std::size_t>(k)];
+    if (vertex >= 0) {
+      for (SpreadWeights::InnerIterator entry(weights, vertex); entry; ++entry) {
+        entries.emplace_back(k, static_cast<int>(entry.col()), entry.value());
+      }
+    }
+  }
+  SpreadWeights rows(count, count);
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
+}
+
 } // namespace
 
 MarkerDistances::MarkerDistances(const EdgeGraph& graph, std::span<const int> marker_vertices,
@@ -171,25 +188,20 @@ SpreadWeights spread_weights(const EdgeGraph& graph, std::span<const int> marker
   if (options.sigma_mm > 0.0) {
     return distances.weights(std::vector<double>(marker_vertices.size(), options.sigma_mm));
   }
-  const SpreadWeights wide = distances.weights(distances.neighbour_sigma());
-  const SpreadWeights fine = distances.weights(distances.near_sigma());
-  // What the first pass leaves of the markers' motions at their own vertices.
-  const auto count = static_cast<Eigen::Index>(marker_vertices.size());
-  std::vector<Eigen::Triplet<double>> left;
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const int vertex = marker_vertices[static_cast<std::size_t>(k)];
-    if (vertex < 0) {
-      continue;
-    }
-    left.emplace_back(static_cast<int>(k), static_cast<int>(k), 1.0);
-    for (SpreadWeights::InnerIterator entry(wide, vertex); entry; ++entry) {
-      left.emplace_back(static_cast<int>(k), static_cast<int>(entry.col()), -entry.value());
-    }
+  std::vector<double> finest = distances.near_sigma();
+  for (double& sigma : finest) {
+    sigma *= 0.5;
   }
-  SpreadWeights residual(count, count);
-  residual.setFromTriplets(left.begin(), left.end());
-  const SpreadWeights correction = fine * residual;
-  return wide + correction;
+  const auto count = static_cast<Eigen::Index>(marker_vertices.size());
+  SpreadWeights weights(graph.vertex_count(), count);
+  SpreadWeights left(count, count); // of the markers' motions, at their own vertices
+  left.setIdentity();
+  for (const auto& sigma : {distances.neighbour_sigma(), distances.near_sigma(), finest}) {
+    const SpreadWeights correction = distances.weights(sigma) * left;
+    weights = SpreadWeights(weights + correction);
+    left = SpreadWeights(left - rows_at(correction, marker_vertices));
+  }
+  return weights;
 }
 
 } // namespace phonomime

@@ -48,13 +48,14 @@ private:
   std::vector<double> neighbour_sigma_;
 };
 
-// The weights that a face is moved with. With options.sigma_mm: one pass of E15. Without: two
-// passes, the first with neighbour_sigma, the second with near_sigma on what the first leaves at
-// the markers' own vertices:
-//   W = W1 + W2 (I - W1 at the markers)
-// One pass with near_sigma keeps 0.98 of the aperture of grid_s1 but leaves the skin between lip
-// and chin at rest, which folds when the mouth opens; one with neighbour_sigma folds nothing but
-// keeps 0.91 (canonical) and 0.82 (ict). The two together keep 1.00 and fold nothing.
+// The weights that a face is moved with. With options.sigma_mm: one pass of E15. Without: three
+// passes, each E15 of what those before leave of the markers' motions at the markers' own vertices,
+// with neighbour_sigma, with near_sigma and with half of near_sigma:
+//   W <- W + Wp L,  L <- L - (Wp L at the markers),  from W = 0, L = I
+// Over grid_s1, one pass with near_sigma keeps 0.98 of the aperture (canonical and ict) but leaves
+// the skin between lip and chin at rest, so that it folds when the mouth opens; one pass with
+// neighbour_sigma folds nothing but keeps 0.91 and 0.82. The passes together keep 1.00 and fold
+// nothing, and the aperture survives where markers are few too.
 SpreadWeights spread_weights(const EdgeGraph& graph, std::span<const int> marker_vertices,
                              const SpreadOptions& options);
 

@@ -95,7 +95,7 @@ private:
   long corner(std::string_view word, long line) const {
     const std::optional<long> number = parse_integer(word.substr(0, word.find('/')));
     const bool relative = number && *number < 0;
-    if (!number || *number == 0 || (relative && -*number > vertex_count()) ||
+    if (!number || *number == 0 || (relative && *number < -vertex_count()) ||
         *number > static_cast<long>(kMostElements)) {
       fail(line, "a face's corner names no vertex",
            "a vertex number from 1, or from the end if negative", quoted(word));
