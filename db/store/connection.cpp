@@ -174,11 +174,21 @@ void Connection::open_read_write(std::span<const Migration> migrations) {
                    .remedy = "Change its permissions, or work on a copy."});
   }
   writable_ = true;
-  if (!has_content(path_)) {
-    database_->exec(kNewFilePragmas);
+  try {
+    if (!has_content(path_)) {
+      database_->exec(kNewFilePragmas);
+    }
+    made_new_ = migrate(*database_, migrations, where_);
+    database_->exec(kWritePragmas);
+  } catch (...) {
+    // A disk too full for the tables leaves the file that opening made, without a byte in it.
+    database_.reset();
+    std::error_code ignored;
+    if (!file_existed_ && !has_content(path_)) {
+      fs::remove(path_, ignored);
+    }
+    throw;
   }
-  made_new_ = migrate(*database_, migrations, where_);
-  database_->exec(kWritePragmas);
 }
 
 void Connection::check_length() const {

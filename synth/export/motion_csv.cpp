@@ -115,10 +115,12 @@ std::string live_link_csv(const Layout& layout, const PcaModel& pca,
   for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
     text += fmt::format("{},{}", timecode(frame_time_s(motion, frame)), kLiveLinkColumns.size());
     const Eigen::VectorXd channels = frame_channels(pca, motion, frame);
-    for (const std::string_view column : kLiveLinkColumns) {
-      const std::optional<int> group = layout.find_group(column);
+    for (std::size_t i = 0; i < kLiveLinkColumns.size(); ++i) {
+      const std::optional<int> group = layout.find_group(kLiveLinkColumns[i]);
+      const double value = group ? channels[*group] : 0.0;
       text += ',';
-      append_decimal(text, group ? channels[*group] : 0.0, 10);
+      // What the PCA leaves over can put a shape a little outside of its range; angles have none.
+      append_decimal(text, i < kArkitShapeCount ? std::clamp(value, 0.0, 1.0) : value, 10);
     }
     text += '\n';
   }
