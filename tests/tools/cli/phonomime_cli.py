@@ -21,7 +21,8 @@ SOURCE_DIR = pathlib.Path(__file__).resolve().parents[3]
 TIME_LIMIT_S = 300
 
 DONE, USAGE, BAD_INPUT, IO, INTERNAL, INTERRUPTED = 0, 2, 3, 4, 5, 130
-KINDS = ("csv", "glb", "html", "json", "txt")
+# Kinds of output; .html where the program was built with the player.
+KINDS = ("csv", "glb", "html", "json", "txt") if os.environ.get("PHONOMIME_PLAYER_HTML", "?") else ("csv", "glb", "json", "txt")
 
 
 def _shared_data():

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An import that is killed or stopped leaves the database as it was before, or as it is after."""
+import collections
+import json
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+
+import phonomime_cli as cli
+import tiny_corpus
+
+KILLS = 25  # of imports into a new database, and as many into one that holds a corpus
+
+Import = collections.namedtuple("Import", "status said work_s")
+
+
+class KillTest(cli.CliTest):
+    @classmethod
+    def setUpClass(cls):
+        spare = tempfile.TemporaryDirectory(prefix="phonomime_cli_")
+        cls.addClassCleanup(spare.cleanup)
+        folder = pathlib.Path(spare.name)
+        cls.old = tiny_corpus.Corpus(folder / "old", name="old", first=500).write()
+        cls.new = tiny_corpus.Corpus(folder / "new", sentences=80, phonemes=40).write()
+        cls.next = tiny_corpus.Corpus(folder / "next", name="next", sentences=1, first=900).write()
+        cls.before, cls.only_new, cls.both = (folder / f"{name}.db" for name in ("before", "only_new", "both"))
+        cli.run_well("import", cls.old, "--db", cls.before)
+        shutil.copyfile(cls.before, cls.both)
+        cls.work_s = cls.import_new(cls.only_new).work_s
+        cli.run_well("import", cls.new, "--db", cls.both)
+        cls.states = {path: cli.state(path) for path in (cls.before, cls.only_new, cls.both)}
+
+    @classmethod
+    def import_new(cls, database, number=None, after_s=0.0):
+        """Runs an import, which gets the signal once it has worked (not waited) so long. Its exit
+        status, its stderr and the time that it worked."""
+        command = [cli.PROGRAM, "import", cls.new, "--db", database, "--quiet", "--threads", "1"]
+        work_s = 0.0
+        with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True) as process:
+            while process.poll() is None:
+                try:
+                    work_s = int(pathlib.Path(f"/proc/{process.pid}/schedstat").read_text().split()[0]) * 1e-9
+                except (OSError, IndexError):  # it has just ended
+                    break
+                if number and work_s >= after_s:
+                    process.send_signal(number)
+                    break
+                time.sleep(0.001)
+            _, said = process.communicate(timeout=cli.TIME_LIMIT_S)
+        return Import(process.returncode, said, work_s)
+
+    def moments(self, count):
+        """From the start of an import to its end, in seconds of work."""
+        return [self.work_s * (k + 0.5) / count for k in range(count)]
+
+    def kill_imports(self, start_from):
+        """How many of the imports were killed before they were done."""
+        stopped = 0
+        after = self.both if start_from else self.only_new
+        for k, after_s in enumerate(self.moments(KILLS)):
+            with self.subTest(kill=k, after_s=round(after_s, 3)):
+                folder = self.folder / f"kill{k}"
+                folder.mkdir()
+                database = folder / "motion.db"
+                if start_from:
+                    shutil.copyfile(start_from, database)
+                killed = self.import_new(database, signal.SIGKILL, after_s)
+                self.assertIn(killed.status, (cli.DONE, -signal.SIGKILL), killed.said)
+                done = self.holds_all(database, start_from, after)
+                stopped += not done
+                if not done:
+                    cli.run_well("import", self.new, "--db", database)
+                    self.assertEqual(cli.state(database), self.states[after])
+                # The next import takes what a killed one has left beside the file.
+                cli.run_well("import", self.next, "--db", database)
+                self.assertEqual([path.name for path in folder.iterdir()], ["motion.db"])
+                self.assertEqual(cli.run_json("info", database)["nodes"], len(self.states[after][1]) + 12)
+                shutil.rmtree(folder)
+        return stopped
+
+    def holds_all(self, database, start_from, after):
+        """False where it is as before; where there was none, none and an empty one are the same."""
+        if not start_from and not database.exists():
+            return False
+        info = cli.run("info", database, "--json")
+        if not start_from and (info.returncode != cli.DONE or not json.loads(info.stdout)["corpora"]):
+            self.assertIn(info.returncode, (cli.DONE, cli.BAD_INPUT))
+            self.assertEqual(info.stderr, "" if info.returncode == cli.DONE else (
+                f"phonomime: {database}: this file is empty: there is no corpus in it. "
+                "Fill it with `phonomime import CORPUS --db DB`.\n"))
+            return False
+        state = cli.state(database)
+        if start_from and state == self.states[start_from]:
+            return False
+        self.assertEqual(state, self.states[after])
+        return True
+
+    def test_kill_9_on_a_new_database(self):
+        self.assertGreaterEqual(self.kill_imports(None), KILLS // 2)
+
+    def test_kill_9_on_a_database_that_holds_a_corpus(self):
+        self.assertGreaterEqual(self.kill_imports(self.before), KILLS // 2)
+
+    def test_interrupts_leave_all_as_it_was(self):
+        """By SIGINT (Ctrl-C) and SIGTERM; a signal before the program listens ends it at once."""
+        stopped = 0
+        for start_from in (None, self.before):
+            for k, after_s in enumerate(self.moments(8)):
+                number = (signal.SIGINT, signal.SIGTERM)[k % 2]
+                with self.subTest(start_from=start_from and start_from.name, signal=number.name, after_s=round(after_s, 3)):
+                    folder = self.folder / "interrupted"
+                    folder.mkdir()
+                    self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
+                    database = folder / "motion.db"
+                    if start_from:
+                        shutil.copyfile(start_from, database)
+                    before = cli.contents(folder)
+                    stop = self.import_new(database, number, after_s)
+                    self.assertIn(stop.status, (cli.DONE, cli.INTERRUPTED, -number), stop.said)
+                    if stop.status == cli.DONE:
+                        self.assertIn("ann", cli.run_json("info", database)["speakers"])
+                    else:
+                        self.assertEqual(cli.contents(folder), before)
+                    if stop.status == cli.INTERRUPTED:
+                        stopped += 1
+                        self.assertEqual(stop.said, "phonomime: interrupted\n")
+                    shutil.rmtree(folder)
+        self.assertGreaterEqual(stopped, 4)
+
+
+if __name__ == "__main__":
+    cli.main()

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Asking for a recorded sentence, with its own timing, gives the recording back."""
+import csv
+import json
+import math
+import pathlib
+import sqlite3
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import phonomime_cli as cli
+
+READER = cli.SOURCE_DIR / "tests/tools/demo/read_c3d.py"
+SILENCE = ("pau", "sil", "sp", "")
+SENTENCES = 24
+RATE_HZ = 100
+# Markers of the lips, jaw, cheeks and nose: the distances between them do not know where the head is.
+MARKERS = ("lm61", "lm291", "lm0", "lm17", "lm13", "lm14", "lm152", "lm78", "lm308", "lm205", "lm425", "lm1")
+
+
+def setUpModule():
+    global folder, database, info
+    if cli.SHARED_DATA is None:
+        return
+    spare = tempfile.TemporaryDirectory(prefix="phonomime_cli_")
+    unittest.addModuleCleanup(spare.cleanup)
+    folder = pathlib.Path(spare.name)
+    database = folder / "grid_s1.db"
+    cli.run_well("import", cli.SHARED_DATA / "grid_s1", "--db", database)
+    info = cli.run_json("info", database)
+
+
+def read_lab(path):
+    """Rows of an xlabel file: (end in seconds, label)."""
+    body = path.read_text().split("#\n", 1)[1]
+    return [(float(words[0]), words[2]) for words in map(str.split, body.splitlines()) if words]
+
+
+def read_recording(path):
+    """Rate, and the markers of each frame: {name: (x, y, z)}, without those that are missing."""
+    said = subprocess.run([sys.executable, "-B", READER, path], stdout=subprocess.PIPE, text=True, check=True)
+    first, *lines = said.stdout.splitlines()
+    rate, count = float(first.split()[0]), int(first.split()[1])
+    frames = [{} for _ in range(count)]
+    for line in lines:
+        k, name, x, y, z, residual = line.split()
+        if float(residual) >= 0:
+            frames[int(k)][name] = (float(x), float(y), float(z))
+    return rate, frames
+
+
+def read_motion(path):
+    """The markers of each frame of a marker CSV."""
+    with open(path, newline="") as file:
+        header, *rows = csv.reader(file)
+    at = {name: header.index(f"{name}_x") for name in MARKERS}
+    return [{name: tuple(map(float, row[i:i + 3])) for name, i in at.items()} for row in rows]
+
+
+def squared_errors_mm(made, recorded):
+    """Of the distance of each pair of markers; none where one of them is missing in the recording."""
+    names = [name for name in MARKERS if name in recorded]
+    return [(math.dist(made[a], made[b]) - math.dist(recorded[a], recorded[b])) ** 2
+            for i, a in enumerate(names) for b in names[:i]]
+
+
+def root_mean(squares):
+    return math.sqrt(sum(squares) / len(squares))
+
+
+def pca_error_mm():
+    """RMS of the distance of two markers that the PCA leaves out: the variance not explained is spread
+    over the channels, and a distance changes with one channel of either marker."""
+    connection = sqlite3.connect(f"file:{database}?mode=ro", uri=True)
+    total, variance, mean = connection.execute("SELECT total_variance, variance, mean FROM pca").fetchone()
+    connection.close()
+    explained = sum(struct.unpack(f"<{len(variance) // 8}d", variance))
+    return math.sqrt(2 * (total - explained) / (len(mean) // 8))
+
+
+@cli.needs_shared_data
+class ResynthesisTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """Sentences without a silence inside, a gap or a suspect, spread over the corpus."""
+        spoilt = {node["sentence"] for flag in ("--gaps", "--suspect")
+                  for node in cli.run_json("nodes", database, flag)}
+        whole = []
+        for path in sorted((cli.SHARED_DATA / "grid_s1/alignment").glob("*.lab")):
+            inner = [label for _, label in read_lab(path)[1:-1]]
+            if path.stem not in spoilt and not set(inner) & set(SILENCE):
+                whole.append(path)
+        cls.sentences = whole[:: len(whole) // SENTENCES][:SENTENCES]
+        cls.outputs = {}
+        for path in cls.sentences:
+            motion, result = folder / f"{path.stem}.csv", folder / f"{path.stem}.json"
+            cli.run_well("synth", "--db", database, path, "--fps", RATE_HZ, "-o", motion, "-o", result)
+            cls.outputs[path] = motion, json.loads(result.read_text())
+
+    def test_there_are_sentences_enough(self):
+        self.assertGreaterEqual(len(self.sentences), 20)
+        self.assertEqual(info["rate"], RATE_HZ)
+
+    def test_its_own_nodes_come_back_all_joins_captured(self):
+        for path, (_, result) in self.outputs.items():
+            with self.subTest(path.stem):
+                spoken = result["path"][1:-1]
+                self.assertEqual([row["node"] for row in spoken],
+                                 [f"s1/neutral/{path.stem}#{row['index']}" for row in spoken])
+                self.assertEqual([row["captured"] for row in spoken], [False] + [True] * (len(spoken) - 1))
+                self.assertEqual(result["cost"], 0)
+
+    def test_the_motion_is_the_recorded_one(self):
+        """At the recorded frames that the phonemes hold, to twice what the PCA leaves out (E11)."""
+        bound_mm = 2 * pca_error_mm()
+        every, worst = [], 0.0
+        for path, (motion, result) in self.outputs.items():
+            rate, recorded = read_recording(cli.SHARED_DATA / f"grid_s1/motion/{path.stem}.c3d")
+            made = read_motion(motion)
+            start, end = result["path"][1]["start"], result["path"][-2]["end"]
+            spoken = [k for k in range(len(recorded)) if start <= k / rate < end]
+            squares = [square for k in spoken
+                       for square in squared_errors_mm(made[round(k / rate * RATE_HZ)], recorded[k])]
+            self.assertGreater(len(squares), 500)
+            every += squares
+            worst = max(worst, root_mean(squares))
+        print(f"\ndistances of markers: RMS {root_mean(every):.3f} mm over {len(self.outputs)} sentences, "
+              f"worst sentence {worst:.3f} mm, the PCA alone {pca_error_mm():.3f} mm")
+        self.assertLess(root_mean(every), bound_mm)
+        self.assertLess(worst, 1.5 * bound_mm)
+
+
+if __name__ == "__main__":
+    cli.main()
