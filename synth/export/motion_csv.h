@@ -24,8 +24,9 @@ std::string weight_csv(const Layout& layout, const PcaModel& pca, const Coeffici
 bool is_live_link_layout(const Layout& layout);
 
 // Live Link Face's 63 columns: Timecode, BlendshapeCount, the 52 shapes, head and eye angles (0
-// where the layout has no such group); shapes stay within [0, 1]. Timecodes count 60 ticks a second from 00:00:00:00.000, with
-// the fraction of a tick in thousandths. Throws InternalError for another layout.
+// where the layout has no such group); shapes stay within [0, 1]. Timecodes count 60 ticks a second
+// from 00:00:00:00.000, with the fraction of a tick in thousandths. Throws InternalError for
+// another layout.
 std::string live_link_csv(const Layout& layout, const PcaModel& pca,
                           const CoefficientMotion& motion);
 
