@@ -194,10 +194,10 @@ TEST_F(OpenTest, AReadOnlyFileIsReadButNotWritten) {
   const uid_t user = geteuid();
   constexpr uid_t kNobody = 65534;
   if (user == 0) { // root may write to a read-only file: somebody else tries
-    for (fs::path folder = path.parent_path();
-         folder != folder.root_path() && folder != fs::temp_directory_path();
-         folder = folder.parent_path()) {
-      fs::permissions(folder, fs::perms::all);
+    for (fs::path place = path.parent_path();
+         place != place.root_path() && place != fs::temp_directory_path();
+         place = place.parent_path()) {
+      fs::permissions(place, fs::perms::all);
     }
   }
   fs::permissions(path, fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
