@@ -100,7 +100,7 @@ class CallsTest(cli.CliTest):
                     shown += os.read(ours, 65536)
                 self.assertEqual(result.returncode, cli.DONE)
                 self.assertNotIn(b"\n", shown)
-                self.assertEqual(b"importing [" in shown, not quiet, shown)
+                self.assertEqual(b" [" in shown, not quiet, shown)
                 self.assertEqual(shown.split(b"\033[K")[-1], b"|")
 
     def test_a_closed_pipe_is_an_error_and_no_crash(self):
