@@ -2,14 +2,17 @@
 #include "tools/cli/arguments.h"
 
 #include "db/types/errors.h"
-#include "db/types/text.h"
+#include "tools/cli/help.h"
+#include "tools/cli/words.h"
 
-#include <array>
-#include <map>
-#include <numbers>
+#include <algorithm>
+#include <memory>
 #include <optional>
+#include <span>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace phonomime {
 
@@ -24,39 +27,58 @@ struct Words {
   SynthArguments synth;
   ExplainArguments explain;
   bool only_suspect = false, only_pruned = false, only_gaps = false;
-  double share = 0.0;
-  std::string head;
+  std::string head, silence = "linear";
+  bool no_rest = false;
 };
 
-// "yaw,pitch,roll[,x,y,z]": degrees about y (up), x (right of the picture), z (towards the camera),
-// applied in the order roll, pitch, yaw; millimetres.
-HeadPose parse_head(const std::string& text) {
-  std::vector<double> numbers;
-  for (const std::string_view field : split_fields(text, ',')) {
-    const std::optional<double> number = parse_number(trim(field));
-    if (!number) {
-      break;
+// A call's help as a page: CLI11's own shows its inner workings.
+class HelpFormatter : public CLI::FormatterBase {
+public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const override {
+    HelpPage page{.title = app->get_description(), .usage = std::move(name)};
+    HelpSection verbs{.heading = "Verbs"}, words{.heading = "Arguments"}, options{"Options", {}};
+    for (const CLI::App* verb : app->get_subcommands({})) {
+      verbs.entries.push_back({verb->get_name(), verb->get_description()});
     }
-    numbers.push_back(*number);
+    for (const CLI::Option* option : app->get_options()) {
+      HelpSection& section = option->get_positional() ? words : options;
+      section.entries.push_back({term(*option), meaning(*option)});
+      if (option->get_required()) {
+        page.usage += " " + (option->get_positional() ? "" : option->get_name() + " ") +
+                      option->get_type_name();
+      }
+    }
+    page.usage += verbs.entries.empty() ? " [OPTIONS]" : " VERB ...";
+    std::ranges::rotate(options.entries, options.entries.begin() + 1); // --help comes last
+    page.sections = {std::move(verbs), std::move(words), std::move(options)};
+    page.footer = app->get_footer();
+    return format_help(page);
   }
-  if ((numbers.size() != 3 && numbers.size() != 6) ||
-      numbers.size() != split_fields(text, ',').size()) {
-    throw UsageError({.where = "--head",
-                      .what = "is not a head pose",
-                      .expected = "YAW,PITCH,ROLL or YAW,PITCH,ROLL,X,Y,Z (degrees, mm)",
-                      .got = quoted(text)});
+
+private:
+  static std::string term(const CLI::Option& option) {
+    if (option.get_positional()) {
+      return option.get_type_name();
+    }
+    std::string text;
+    for (const std::string& name : option.get_snames()) {
+      text += fmt::format("-{}, ", name);
+    }
+    text += fmt::format("--{}", fmt::join(option.get_lnames(), ", --"));
+    return option.get_items_expected_max() > 0 ? text + " " + option.get_type_name() : text;
   }
-  const auto about = [&](std::size_t i, const Eigen::Vector3d& axis) {
-    return Eigen::AngleAxisd(numbers[i] * std::numbers::pi / 180.0, axis);
-  };
-  HeadPose pose;
-  pose.rotation = about(0, Eigen::Vector3d::UnitY()) * about(1, Eigen::Vector3d::UnitX()) *
-                  about(2, Eigen::Vector3d::UnitZ());
-  if (numbers.size() == 6) {
-    pose.translation_mm = {numbers[3], numbers[4], numbers[5]};
+
+  static std::string meaning(const CLI::Option& option) {
+    std::string text = option.get_description();
+    if (!option.get_default_str().empty()) {
+      text += fmt::format(" (default: {})", option.get_default_str());
+    }
+    for (const CLI::Option* other : option.get_excludes()) {
+      text += fmt::format(" (not with {})", other->get_name());
+    }
+    return option.get_required() && !option.get_positional() ? text + " (required)" : text;
   }
-  return pose;
-}
+};
 
 void add_database(CLI::App* verb, std::filesystem::path& database, bool option) {
   auto* added = option ? verb->add_option("--db", database, "The motion database")
@@ -68,33 +90,40 @@ void add_import(CLI::App& app, Words& words) {
   ImportOptions& options = words.import.options;
   CLI::App* verb = app.add_subcommand("import", "Put a corpus folder into a motion database");
   verb->footer("Example:\n  phonomime import recordings/ann --db ann.db\n\n"
-               "The database is made where it does not exist, else added to; an import that fails\n"
-               "or is stopped changes nothing. corpora_schema/corpus.md describes the folder.");
+               "The database is made where it does not exist, else added to; an import that\n"
+               "fails or is stopped changes nothing. corpora_schema/corpus.md describes the\n"
+               "folder.");
   verb->add_option("corpus", options.corpus, "The folder with corpus.json")
       ->required()
-      ->type_name("FOLDER");
+      ->type_name("CORPUS");
   add_database(verb, options.database, true);
   verb->add_option("--rate", options.rate_hz,
-                   "Frames a second of a new database (default: the fastest recording's, at least "
-                   "100)")
+                   "Frames a second of a new database, 10 to 1000 (default: the fastest "
+                   "recording's, at least 100)")
       ->type_name("HZ");
-  verb->add_option("--dimensions", options.pca.dimensions, "PCA dimensions")->capture_default_str();
-  verb->add_option("--share", words.share,
+  verb->add_option("--dimensions", options.pca.dimensions,
+                   "PCA dimensions that frames are reduced to")
+      ->type_name("N")
+      ->capture_default_str();
+  verb->add_option("--share", options.pca.share,
                    "Instead: the least number of dimensions that explains this share of the "
-                   "variance")
-      ->check(CLI::Range(0.0, 1.0))
+                   "variance, above 0 and up to 1")
+      ->type_name("SHARE")
       ->excludes("--dimensions");
   verb->add_option("--gap-limit", options.recordings.gap_limit_s,
                    "Longest run of missing markers that is filled, in seconds")
+      ->type_name("SECONDS")
       ->capture_default_str();
   verb->add_option("--tolerance", options.recordings.tolerance_s,
-                   "How far an alignment may run past its motion, in seconds")
+                   "How much longer or shorter than its motion an alignment may be, in seconds")
+      ->type_name("SECONDS")
       ->capture_default_str();
   verb->add_flag("--skip-faulty", options.recordings.skip_faulty,
                  "Leave out sentences whose files are faulty (the report names them) instead of "
                  "refusing the corpus");
-  verb->add_option("--threads", options.recordings.threads, "Threads (0: one for each core)")
-      ->check(CLI::Range(0, 256));
+  verb->add_option("--threads", options.recordings.threads,
+                   "Threads to work with (default: one for each core)")
+      ->type_name("N");
 }
 
 void add_info(CLI::App& app, Words& words) {
@@ -105,20 +134,51 @@ void add_info(CLI::App& app, Words& words) {
 
 void add_nodes(CLI::App& app, Words& words) {
   NodeFilter& filter = words.nodes.filter;
-  CLI::App* verb = app.add_subcommand("nodes", "List motion nodes");
-  verb->footer("Example:\n  phonomime nodes ann.db --phoneme aa --emotion happiness --limit 10");
+  CLI::App* verb =
+      app.add_subcommand("nodes", "List motion nodes: the recorded phonemes of a database");
+  verb->footer("Example:\n  phonomime nodes ann.db --phoneme aa --emotion happiness --limit 10\n\n"
+               "A node is listed where all of the options hold for it.");
   add_database(verb, words.nodes.database, false);
-  verb->add_option("--phoneme", filter.phoneme, "Only this phoneme");
-  verb->add_option("--emotion", filter.emotion, "Only this emotion");
-  verb->add_option("--speaker", filter.speaker, "Only this speaker");
-  verb->add_option("--sentence", filter.sentence, "Only this sentence (its id)");
-  verb->add_option("--previous", filter.previous_phoneme, "Only after this phoneme");
-  verb->add_option("--next", filter.next_phoneme, "Only before this phoneme");
-  verb->add_flag("--suspect", words.only_suspect, "Only suspects");
-  verb->add_flag("--pruned", words.only_pruned, "Only pruned ones");
+  const auto add = [&](const char* name, std::string& text, const char* meaning) {
+    verb->add_option(name, text, meaning)->type_name("NAME");
+  };
+  add("--phoneme", filter.phoneme, "Only this phoneme");
+  add("--emotion", filter.emotion, "Only this emotion");
+  add("--speaker", filter.speaker, "Only this speaker");
+  add("--sentence", filter.sentence, "Only this sentence (its id)");
+  add("--previous", filter.previous_phoneme, "Only after this phoneme (pau is silence)");
+  add("--next", filter.next_phoneme, "Only before this phoneme (pau is silence)");
+  verb->add_flag("--suspect", words.only_suspect, "Only suspects: jumps, odd durations, stillness");
+  verb->add_flag("--pruned", words.only_pruned, "Only those that were taken out of use");
   verb->add_flag("--gaps", words.only_gaps, "Only those with unfilled gaps");
-  verb->add_option("--limit", words.nodes.limit, "At most this many")
-      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--limit", words.nodes.limit, "At most this many (0: all)")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+void add_synth_inputs(CLI::App* verb, SynthOptions& options) {
+  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
+      ->type_name("NAME");
+  verb->add_option("--emotion", options.emotion, "One emotion throughout (default: neutral)")
+      ->type_name("NAME[:INTENSITY]");
+  verb->add_option("--emotions", options.emotions,
+                   "Emotion track: a text file of lines START END EMOTION")
+      ->type_name("TRACK");
+  verb->add_option("--constraints", options.constraints,
+                   "Constraint file: which nodes to use or to avoid, and where")
+      ->type_name("FILE");
+  verb->add_option("--weights", options.weights, "Cost weights of the search (JSON)")
+      ->type_name("FILE");
+  verb->add_option("--phoneme-set", options.phoneme_set,
+                   "The transcript's alphabet: festival_us, arpabet, timit or a .json file "
+                   "(default: the first that knows every symbol)")
+      ->type_name("SET");
+  verb->add_option("--tier", options.tier, "The phone tier of a TextGrid (default: found by name)")
+      ->type_name("NAME");
+  verb->add_option("--audio", options.audio, "Sound for the player")->type_name("WAV");
+  verb->add_option("--face", options.face,
+                   "Mesh (.obj, .glb) or the folder with it; needed for .glb and .html")
+      ->type_name("FACE");
 }
 
 void add_synth(CLI::App& app, Words& words) {
@@ -126,7 +186,8 @@ void add_synth(CLI::App& app, Words& words) {
   CLI::App* verb = app.add_subcommand("synth", "A transcript in, a talking face out");
   verb->footer("Example:\n  phonomime synth --db ann.db hello.lab --emotions hello.emotions \\\n"
                "      --constraints hello.constraints --audio hello.wav --face head.glb \\\n"
-               "      -o hello.html -o hello.glb -o hello.csv");
+               "      -o hello.html -o hello.glb -o hello.csv\n\n"
+               "corpora_schema/ describes every file.");
   add_database(verb, options.database, true);
   verb->add_option("transcript", options.transcript,
                    "Phonemes with times: .lab (Festival, HTK) or .TextGrid")
@@ -134,42 +195,33 @@ void add_synth(CLI::App& app, Words& words) {
       ->type_name("TRANSCRIPT");
   verb->add_option(
           "-o,--output", options.outputs,
-          "Output; its suffix says what: .csv (marker or Live Link motion), .glb (animated "
+          "Outputs; the suffix says what: .csv (marker or Live Link motion), .glb (animated "
           "mesh), .html (player), .json (the result), .txt (the explanation)")
       ->type_name("FILE...");
-  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several");
-  verb->add_option("--emotion", options.emotion, "One emotion throughout (default: neutral)")
-      ->type_name("NAME[:INTENSITY]");
-  verb->add_option("--emotions", options.emotions, "Emotion track")->type_name("TRACK");
-  verb->add_option("--constraints", options.constraints, "Constraint file")->type_name("FILE");
-  verb->add_option("--weights", options.weights, "Cost weights")->type_name("FILE");
-  verb->add_option("--phoneme-set", options.phoneme_set,
-                   "The transcript's alphabet: festival_us, arpabet, timit or a .json file "
-                   "(default: the first that knows every symbol)");
-  verb->add_option("--tier", options.tier, "The phone tier of a TextGrid (default: found by name)");
-  verb->add_option("--audio", options.audio, "Sound for the player")->type_name("WAV");
-  verb->add_option("--face", options.face, "Mesh (.obj, .glb) or the folder with it")
-      ->type_name("FACE");
-  verb->add_option("--fps", options.fps, "Output frames a second")->capture_default_str();
+  add_synth_inputs(verb, options);
+  verb->add_option("--fps", options.fps, "Output frames a second, 1 to 1000")
+      ->type_name("N")
+      ->capture_default_str();
   verb->add_option("--head", words.head,
-                   "A constant head pose, also put back into marker CSV (default: the head rests): "
-                   "degrees and mm")
+                   "A constant head pose, also put back into marker CSV, in degrees and mm "
+                   "(default: the head rests)")
       ->type_name("YAW,PITCH,ROLL[,X,Y,Z]");
-  verb->add_option("--silence", options.silence.fill, "How inner silence is filled")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, SilenceFill>{{"linear", SilenceFill::linear},
-                                             {"cosine", SilenceFill::cosine},
-                                             {"cubic", SilenceFill::cubic}}))
-      ->default_str("linear");
-  verb->add_flag("!--no-rest", options.silence.rest_at_ends,
-                 "Hold the first and the last pose through silence at the ends");
+  verb->add_option("--silence", words.silence, "How inner silence is filled: linear, cosine, cubic")
+      ->type_name("FILL")
+      ->capture_default_str();
+  verb->add_flag("--no-rest", words.no_rest,
+                 "Hold the first and the last pose through silence at the ends, instead of the "
+                 "face at rest");
   verb->add_option("--smoothing", options.smoothing_half_window,
-                   "Frames on either side of a join that are smoothed")
+                   "Frames on either side of a join that are smoothed, 0 to 100")
+      ->type_name("N")
       ->capture_default_str();
-  verb->add_option("--runners-up", options.runners_up, "Runners-up for each phoneme")
+  verb->add_option("--runners-up", options.runners_up, "Runners-up for each phoneme, 0 to 100")
+      ->type_name("N")
       ->capture_default_str();
-  verb->add_option("--threads", options.threads, "Threads (0: one for each core)")
-      ->check(CLI::Range(0, 256));
+  verb->add_option("--threads", options.threads,
+                   "Threads to work with (default: one for each core)")
+      ->type_name("N");
 }
 
 void add_explain(CLI::App& app, Words& words) {
@@ -192,6 +244,14 @@ std::optional<bool> only_if(bool flag) {
   return flag ? std::optional(true) : std::nullopt;
 }
 
+std::vector<std::string> verb_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands({})) {
+    names.push_back(verb->get_name());
+  }
+  return names;
+}
+
 // CLI11 says several things at once; one line is enough for one error.
 [[noreturn]] void throw_usage(const CLI::App& app, const CLI::ParseError& error) {
   std::string verb;
@@ -206,14 +266,22 @@ std::optional<bool> only_if(bool flag) {
 Arguments parse_arguments(int argc, const char* const* argv) {
   Words words;
   CLI::App app("Expressive speech animation from recorded facial motion", "phonomime");
+  app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
-  app.set_version_flag("--version", std::string("phonomime ") + PHONOMIME_VERSION);
+  app.set_help_flag("-h,--help", "Print this help");
+  app.set_version_flag("--version", std::string("phonomime ") + PHONOMIME_VERSION,
+                       "Print the version");
+  app.footer("Example:\n  phonomime import recordings/ann --db ann.db\n"
+             "  phonomime synth --db ann.db hello.lab --face head.glb -o hello.html\n\n"
+             "`phonomime VERB --help` says more of a verb.");
   add_import(app, words);
   add_info(app, words);
   add_nodes(app, words);
   add_synth(app, words);
   add_explain(app, words);
   add_common(app, words.arguments.common);
+  check_verb(std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0),
+             verb_names(app));
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -225,15 +293,15 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw_usage(app, error);
   }
-  if (words.share > 0.0) {
-    words.import.options.pca.share = words.share;
-  }
+  check_limit(words.nodes.limit);
   words.nodes.filter.suspect = only_if(words.only_suspect);
   words.nodes.filter.pruned = only_if(words.only_pruned);
   words.nodes.filter.has_gap = only_if(words.only_gaps);
   if (!words.head.empty()) {
     words.synth.options.head = parse_head(words.head);
   }
+  words.synth.options.silence = {.fill = parse_silence(words.silence),
+                                 .rest_at_ends = !words.no_rest};
   const std::string verb = app.get_subcommands().front()->get_name();
   if (verb == "import") {
     words.arguments.verb = words.import;
