@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/words.h"
+
+#include "db/types/errors.h"
+#include "db/types/text.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace phonomime {
+
+HeadPose parse_head(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string_view field : split_fields(text, ',')) {
+    const std::optional<double> number = parse_number(trim(field));
+    if (!number) {
+      break;
+    }
+    numbers.push_back(*number);
+  }
+  if ((numbers.size() != 3 && numbers.size() != 6) ||
+      numbers.size() != split_fields(text, ',').size()) {
+    throw UsageError({.where = "--head",
+                      .what = "is not a head pose",
+                      .expected = "YAW,PITCH,ROLL or YAW,PITCH,ROLL,X,Y,Z (degrees, mm)",
+                      .got = quoted(text)});
+  }
+  const auto about = [&](std::size_t i, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(numbers[i] * std::numbers::pi / 180.0, axis);
+  };
+  HeadPose pose;
+  pose.rotation = about(0, Eigen::Vector3d::UnitY()) * about(1, Eigen::Vector3d::UnitX()) *
+                  about(2, Eigen::Vector3d::UnitZ());
+  if (numbers.size() == 6) {
+    pose.translation_mm = {numbers[3], numbers[4], numbers[5]};
+  }
+  return pose;
+}
+
+SilenceFill parse_silence(const std::string& text) {
+  constexpr std::array<std::pair<const char*, SilenceFill>, 3> kFills = {
+      {{"linear", SilenceFill::linear},
+       {"cosine", SilenceFill::cosine},
+       {"cubic", SilenceFill::cubic}}};
+  std::vector<std::string> names;
+  for (const auto& [name, fill] : kFills) {
+    if (text == name) {
+      return fill;
+    }
+    names.emplace_back(name);
+  }
+  throw UsageError({.where = "--silence",
+                    .what = "there is no such way to fill silence",
+                    .expected = fmt::format("one of {}", fmt::join(names, ", ")),
+                    .got = quoted(text),
+                    .remedy = did_you_mean(text, names)});
+}
+
+void check_verb(std::span<const char* const> call, const std::vector<std::string>& verbs) {
+  const std::string expected = fmt::format("one of {}", fmt::join(verbs, ", "));
+  const std::string see = "See `phonomime --help`.";
+  if (call.empty()) {
+    throw UsageError({.what = "the call names no verb", .expected = expected, .remedy = see});
+  }
+  const auto word =
+      std::ranges::find_if(call, [](std::string_view text) { return !text.starts_with('-'); });
+  if (word != call.end() && std::ranges::find(verbs, *word) == verbs.end()) {
+    const std::string question = did_you_mean(*word, verbs);
+    throw UsageError({.what = fmt::format("there is no verb {}", quoted(*word)),
+                      .expected = expected,
+                      .remedy = question.empty() ? see : question + " " + see});
+  }
+}
+
+void check_limit(long limit) {
+  if (limit < 0) {
+    throw UsageError({.where = "--limit",
+                      .what = "is out of range",
+                      .expected = "0 (all) or more",
+                      .got = fmt::format("{}", limit)});
+  }
+}
+
+} // namespace phonomime
