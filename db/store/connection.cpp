@@ -6,6 +6,7 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/resource.h>
 
 #include <system_error>
 
@@ -216,15 +217,26 @@ void Connection::begin_writing() {
 void Connection::check_space_for_checkpoint() const {
   // What is still in memory goes to the WAL now, so that it is not counted as free below.
   const int flushed = sqlite3_db_cacheflush(database_->getHandle());
-  if (flushed != SQLITE_BUSY) {
-    database_->check(flushed);
+  if (flushed != SQLITE_OK && flushed != SQLITE_BUSY) {
+    // The connection's own message is still that of the last statement.
+    throw SQLite::Exception(sqlite3_errstr(flushed), flushed);
   }
   const auto number = [&](const char* pragma) {
     return static_cast<std::uintmax_t>(database_->execAndGet(pragma).getInt64());
   };
   constexpr std::uintmax_t commit_pages = 4; // that COMMIT itself still writes
-  const std::uintmax_t wanted =
-      (number("PRAGMA page_count") + commit_pages) * number("PRAGMA page_size");
+  const std::uintmax_t page_size = number("PRAGMA page_size");
+  const std::uintmax_t whole = number("PRAGMA page_count") * page_size;
+  struct rlimit limit {};
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+      limit.rlim_cur < whole) {
+    throw IoError({.where = where_,
+                   .what = "the limit on file sizes is too low for the database",
+                   .expected = fmt::format("at least {} bytes", whole),
+                   .got = fmt::format("{}", limit.rlim_cur),
+                   .remedy = "Raise it (`ulimit -f`) and try again; the database is as it was."});
+  }
+  const std::uintmax_t wanted = whole + commit_pages * page_size;
   std::error_code failure;
   const std::uintmax_t present = fs::file_size(path_, failure);
   const fs::space_info space = fs::space(path_, failure);

@@ -36,8 +36,9 @@ public:
   // WAL mode for an import. Throws SQLite::Exception (busy).
   void begin_writing();
 
-  // Throws IoError where the disk has no room to bring the open transaction from the WAL into the
-  // file: asked before COMMIT, for afterwards it is too late to say no.
+  // Throws IoError where the disk has no room, or the limit on file sizes leaves none, to bring the
+  // open transaction from the WAL into the file: asked before COMMIT, for afterwards it is too late
+  // to say no.
   void check_space_for_checkpoint() const;
 
   // Brings what was committed from the WAL into the file, and goes back to journal_mode=DELETE.
