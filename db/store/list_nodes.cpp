@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/store/database_impl.h"
+#include "db/store/read_common.h"
 #include "db/store/store_error.h"
+#include "db/types/text.h"
 
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -57,12 +61,41 @@ Conditions conditions_of(const NodeFilter& filter) {
   return conditions;
 }
 
+// A name that the database does not know would find nothing, which says less than its neighbours.
+void check_name(const store::Connection& connection, const char* kind, const char* table,
+                const std::string& name) {
+  constexpr std::size_t kMostListed = 80;
+  if (name.empty()) {
+    return;
+  }
+  std::vector<std::string> known = store::names_of(store::read_names(connection, table));
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  if (std::ranges::find(known, name) != known.end()) {
+    return;
+  }
+  const bool lists_them = !known.empty() && known.size() <= kMostListed;
+  throw InputError({.where = connection.where(),
+                    .what = fmt::format("{} {} is not in this database", kind, quoted(name)),
+                    .expected = lists_them ? fmt::format("one of {}", fmt::join(known, ", ")) : "",
+                    .remedy = did_you_mean(name, known)});
+}
+
+void check_names(const store::Connection& connection, const NodeFilter& filter) {
+  check_name(connection, "phoneme", "phonemes", filter.phoneme);
+  check_name(connection, "phoneme", "phonemes", filter.previous_phoneme);
+  check_name(connection, "phoneme", "phonemes", filter.next_phoneme);
+  check_name(connection, "emotion", "emotions", filter.emotion);
+  check_name(connection, "speaker", "speakers", filter.speaker);
+  check_name(connection, "sentence", "sentences", filter.sentence);
+}
+
 } // namespace
 
 std::vector<NodeRecord> MotionDatabase::list_nodes(const NodeFilter& filter) const {
   const store::Connection& connection = *impl_->connection;
   return store::translated(connection.where(), [&] {
     const store::Snapshot snapshot(connection);
+    check_names(connection, filter);
     const Conditions conditions = conditions_of(filter);
     SQLite::Statement statement(
         connection.database(), kQuery + conditions.sql + " ORDER BY k.name, e.name, s.name, n.row");

@@ -87,7 +87,9 @@ public:
 
   bool empty() const; // no corpus in it yet
   DatabaseInfo info() const;
-  std::vector<NodeRecord> list_nodes(const NodeFilter& filter) const; // in order of key
+  // In order of key. Throws InputError for a name in the filter that the database does not know,
+  // with the nearest ones.
+  std::vector<NodeRecord> list_nodes(const NodeFilter& filter) const;
   std::vector<std::string> speakers() const;
 
   // Everything a search needs of one speaker; `speaker` may be empty where there is only one.

@@ -38,7 +38,7 @@ struct NamedRow {
   std::int64_t id = 0;
   std::string name;
 };
-// "speakers" or "emotions", by name.
+// A table with names ("speakers", "sentences"), by name.
 std::vector<NamedRow> read_names(const Connection& connection, const char* table);
 
 std::vector<std::string> names_of(const std::vector<NamedRow>& rows);
