@@ -3,6 +3,7 @@
 
 #include "db/types/errors.h"
 #include "db/types/frame_times.h"
+#include "db/types/text.h"
 #include "synth/concat/smoothing_spline.h"
 #include "synth/concat/time_warp.h"
 
@@ -63,8 +64,8 @@ void check(const MotionTable& table, std::span<const ConcatStep> steps,
   }
   if (previous_end_s * table.rate_hz > kMostFrames) {
     throw InputError({.what = "the transcript is too long",
-                      .expected = "at most " + std::to_string(kMostFrames / table.rate_hz) + " s",
-                      .got = std::to_string(previous_end_s) + " s"});
+                      .expected = "at most " + format_number(kMostFrames / table.rate_hz) + " s",
+                      .got = format_number(previous_end_s) + " s"});
   }
 }
 

@@ -6,6 +6,7 @@
 #include "db/types/errors.h"
 #include "db/types/file_io.h"
 #include "db/types/node_constraint.h"
+#include "db/types/text.h"
 #include "synth/pipeline/transcript_steps.h"
 #include "synth/search/cost_weights.h"
 
@@ -17,6 +18,22 @@
 namespace phonomime {
 
 namespace {
+
+constexpr double kLongestTranscript_s = 7200.0;
+
+// Lest a slip in a file's times ask for more memory than there is.
+void check_length(const Alignment& alignment) {
+  for (const AlignedLabel& row : alignment.rows) {
+    if (row.end_s > kLongestTranscript_s) {
+      throw InputError(
+          {.where = row.line > 0 ? at_line(alignment.source, row.line) : alignment.source,
+           .what = "the transcript is too long",
+           .expected = fmt::format("an end at {} s at the latest", kLongestTranscript_s),
+           .got = format_number(row.end_s) + " s",
+           .remedy = "Check the unit of its times, or cut it into parts."});
+    }
+  }
+}
 
 std::vector<std::string> sets_to_try(const MotionTable& table) {
   const std::vector<std::string> built_in = PhonemeSet::built_in_names();
@@ -77,6 +94,7 @@ SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTab
   SynthesisInput input;
   const Alignment alignment = read_alignment(options.transcript, {.tier = options.tier});
   const PhonemeSet set = choose_phoneme_set(options, table, alignment);
+  check_length(alignment);
   if (options.phoneme_set.empty()) {
     notes.push_back(
         fmt::format("read {} with phoneme set {}", options.transcript.string(), set.name()));
