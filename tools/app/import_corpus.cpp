@@ -27,6 +27,7 @@ namespace {
 constexpr double kLeastDefaultRate_hz = 100.0;
 constexpr double kLeastRate_hz = 10.0;
 constexpr double kMostRate_hz = 1000.0;
+constexpr int kMostThreads = 256;
 constexpr std::ptrdiff_t kFilesAtOnce = 16;
 
 // What an existing database settles.
@@ -179,29 +180,25 @@ void check_new(const Settled& settled, const Corpus& corpus) {
 } // namespace
 
 void ImportOptions::validate() const {
-  const auto refuse = [](std::string what, std::string expected, double got) {
-    throw UsageError(
-        {.what = std::move(what), .expected = std::move(expected), .got = format_number(got)});
+  const auto require = [](bool fits, const char* option, std::string expected, double got) {
+    if (!fits) {
+      throw UsageError({.where = option,
+                        .what = "is out of range",
+                        .expected = std::move(expected),
+                        .got = format_number(got)});
+    }
   };
-  if (rate_hz != 0.0 && !(rate_hz >= kLeastRate_hz && rate_hz <= kMostRate_hz)) {
-    refuse("rate is out of range", fmt::format("{} to {} Hz", kLeastRate_hz, kMostRate_hz),
-           rate_hz);
-  }
-  if (pca.dimensions < 1) {
-    refuse("number of dimensions is out of range", "at least 1", pca.dimensions);
-  }
-  if (pca.share && !(*pca.share > 0.0 && *pca.share <= 1.0)) {
-    refuse("share of the variance is out of range", "more than 0, up to 1", *pca.share);
-  }
-  if (!(recordings.gap_limit_s >= 0.0 && recordings.gap_limit_s <= 10.0)) {
-    refuse("gap limit is out of range", "0 to 10 s", recordings.gap_limit_s);
-  }
-  if (!(recordings.tolerance_s >= 0.0 && recordings.tolerance_s <= 10.0)) {
-    refuse("tolerance is out of range", "0 to 10 s", recordings.tolerance_s);
-  }
-  if (recordings.threads < 0) {
-    refuse("number of threads is out of range", "at least 1", recordings.threads);
-  }
+  require(rate_hz == 0.0 || (rate_hz >= kLeastRate_hz && rate_hz <= kMostRate_hz), "--rate",
+          fmt::format("{} to {} Hz", kLeastRate_hz, kMostRate_hz), rate_hz);
+  require(pca.dimensions >= 1, "--dimensions", "at least 1", pca.dimensions);
+  require(!pca.share || (*pca.share > 0.0 && *pca.share <= 1.0), "--share",
+          "a share of the variance above 0 and up to 1", pca.share.value_or(0.0));
+  require(recordings.gap_limit_s >= 0.0 && recordings.gap_limit_s <= 10.0, "--gap-limit",
+          "0 to 10 s", recordings.gap_limit_s);
+  require(recordings.tolerance_s >= 0.0 && recordings.tolerance_s <= 10.0, "--tolerance",
+          "0 to 10 s", recordings.tolerance_s);
+  require(recordings.threads >= 0 && recordings.threads <= kMostThreads, "--threads",
+          fmt::format("0 (one for each core) to {}", kMostThreads), recordings.threads);
 }
 
 ImportReport import_corpus(const ImportOptions& options, const Progress& progress) {

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -58,6 +60,25 @@ void check_range(const char* option, double value, double least, double most) {
          .what = "is out of range",
          .expected = fmt::format("{} to {}", format_number(least), format_number(most)),
          .got = format_number(value)});
+  }
+}
+
+// One file twice would be written twice and counted twice. Written by renaming, two names of one
+// folder are two files, whatever links there were.
+void check_outputs_differ(const std::vector<std::filesystem::path>& outputs) {
+  std::map<std::filesystem::path, std::filesystem::path> named; // by its one spelling
+  for (const std::filesystem::path& path : outputs) {
+    std::error_code error;
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const auto place = std::filesystem::weakly_canonical(folder, error) / path.filename();
+    const auto [first, is_new] = named.emplace(error ? path : place, path);
+    if (!is_new) {
+      throw UsageError({.where = path.string(),
+                        .what = first->second == path ? "the output is named twice"
+                                                      : "the output is named twice, as " +
+                                                            quoted(first->second.string()) + " too",
+                        .remedy = "Name each output once."});
+    }
   }
 }
 
@@ -116,6 +137,8 @@ void check_synth_options(const SynthOptions& options) {
   check_range("--fps", options.fps, 1.0, 1000.0);
   check_range("--smoothing", options.smoothing_half_window, 0, 100);
   check_range("--runners-up", options.runners_up, 0, 100);
+  check_range("--threads", options.threads, 0, 256);
+  check_outputs_differ(options.outputs);
   const bool needs_face = std::ranges::any_of(options.outputs, shows_face);
   if (needs_face && options.face.empty()) {
     throw UsageError({.what = "a .glb or .html output needs a face",

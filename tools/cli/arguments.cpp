@@ -69,14 +69,18 @@ private:
   }
 
   static std::string meaning(const CLI::Option& option) {
-    std::string text = option.get_description();
+    std::vector<std::string> notes;
     if (!option.get_default_str().empty()) {
-      text += fmt::format(" (default: {})", option.get_default_str());
+      notes.push_back("default: " + option.get_default_str());
     }
     for (const CLI::Option* other : option.get_excludes()) {
-      text += fmt::format(" (not with {})", other->get_name());
+      notes.push_back("not with " + other->get_name());
     }
-    return option.get_required() && !option.get_positional() ? text + " (required)" : text;
+    if (option.get_required() && !option.get_positional()) {
+      notes.emplace_back("required");
+    }
+    return option.get_description() +
+           (notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; ")));
   }
 };
 
@@ -151,9 +155,8 @@ void add_nodes(CLI::App& app, Words& words) {
   verb->add_flag("--suspect", words.only_suspect, "Only suspects: jumps, odd durations, stillness");
   verb->add_flag("--pruned", words.only_pruned, "Only those that were taken out of use");
   verb->add_flag("--gaps", words.only_gaps, "Only those with unfilled gaps");
-  verb->add_option("--limit", words.nodes.limit, "At most this many (0: all)")
-      ->type_name("N")
-      ->capture_default_str();
+  verb->add_option("--limit", words.nodes.limit, "At most this many (default: all)")
+      ->type_name("N");
 }
 
 void add_synth_inputs(CLI::App* verb, SynthOptions& options) {
@@ -181,13 +184,9 @@ void add_synth_inputs(CLI::App* verb, SynthOptions& options) {
       ->type_name("FACE");
 }
 
-void add_synth(CLI::App& app, Words& words) {
+// All that makes motion of a transcript, for every verb that does.
+void add_synth_options(CLI::App* verb, Words& words) {
   SynthOptions& options = words.synth.options;
-  CLI::App* verb = app.add_subcommand("synth", "A transcript in, a talking face out");
-  verb->footer("Example:\n  phonomime synth --db ann.db hello.lab --emotions hello.emotions \\\n"
-               "      --constraints hello.constraints --audio hello.wav --face head.glb \\\n"
-               "      -o hello.html -o hello.glb -o hello.csv\n\n"
-               "corpora_schema/ describes every file.");
   add_database(verb, options.database, true);
   verb->add_option("transcript", options.transcript,
                    "Phonemes with times: .lab (Festival, HTK) or .TextGrid")
@@ -222,6 +221,15 @@ void add_synth(CLI::App& app, Words& words) {
   verb->add_option("--threads", options.threads,
                    "Threads to work with (default: one for each core)")
       ->type_name("N");
+}
+
+void add_synth(CLI::App& app, Words& words) {
+  CLI::App* verb = app.add_subcommand("synth", "A transcript in, a talking face out");
+  verb->footer("Example:\n  phonomime synth --db ann.db hello.lab --emotions hello.emotions \\\n"
+               "      --constraints hello.constraints --audio hello.wav --face head.glb \\\n"
+               "      -o hello.html -o hello.glb -o hello.csv\n\n"
+               "corpora_schema/ describes every file.");
+  add_synth_options(verb, words);
 }
 
 void add_explain(CLI::App& app, Words& words) {
