@@ -25,6 +25,13 @@ constexpr std::size_t kNamesShown = 5;
                     .remedy = std::move(remedy)});
 }
 
+std::string unit_name(double unit_mm) {
+  return unit_mm == 1.0      ? "mm"
+         : unit_mm == 10.0   ? "cm"
+         : unit_mm == 1000.0 ? "m"
+                             : format_number(unit_mm) + " mm";
+}
+
 void check_fits(const MotionClip& clip, const Layout& layout, std::string_view where) {
   if (clip.frame_count() == 0) {
     fail(where, "recording has no frames", "", "", "");
@@ -40,9 +47,8 @@ void check_fits(const MotionClip& clip, const Layout& layout, std::string_view w
   }
   const bool says_unit = layout.kind == LayoutKind::markers && clip.unit_mm > 0.0;
   if (says_unit && std::abs(clip.unit_mm - layout.unit_mm) > 1e-6 * layout.unit_mm) {
-    fail(where, "recording is in another unit than the layout says",
-         format_number(layout.unit_mm) + " mm", format_number(clip.unit_mm) + " mm",
-         "Correct `unit` in the layout.");
+    fail(where, "recording is in another unit than the layout says", unit_name(layout.unit_mm),
+         unit_name(clip.unit_mm), "Correct `unit` in the layout.");
   }
 }
 

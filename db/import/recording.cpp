@@ -39,7 +39,8 @@ std::vector<TimedPhoneme> cut_rows(const std::vector<TimedPhoneme>& rows, double
            .expected = "start and end between phonemes",
            .got = fmt::format("{} from {} to {}, cut at {} and {}", row.phoneme.name,
                               seconds(row.start_s), seconds(row.end_s), seconds(start_s),
-                              seconds(end_s))});
+                              seconds(end_s)),
+           .remedy = "Move the cut, or allow for more with --tolerance."});
     }
     cut.push_back({.phoneme = row.phoneme, .start_s = from - start_s, .end_s = to - start_s});
   }
@@ -58,9 +59,11 @@ void check_duration(double alignment_s, double motion_s, double tolerance_s, boo
                            excess_s > 0.0 ? "longer" : "shorter", quoted(sentence.motion_name)),
        .expected = fmt::format("{} to within {}", seconds(motion_s), seconds(tolerance_s)),
        .got = seconds(alignment_s),
-       .remedy = excess_s > 0.0 ? "Check that both are of the same recording."
-                                : "Check that both are of the same recording; end the alignment "
-                                  "with a row of silence."});
+       .remedy = excess_s > 0.0
+                     ? "Check that both are of the same recording, or allow for more with "
+                       "--tolerance."
+                     : "Check that both are of the same recording; end the alignment with a row "
+                       "of silence, or allow for more with --tolerance."});
 }
 
 void check_groups(const FrameMatrixD& frames, const Layout& layout,
