@@ -28,7 +28,13 @@ constexpr std::string_view kCorpusFile = "corpus.json";
 fs::path canonical_folder(const fs::path& folder) {
   std::error_code error;
   const fs::path real = fs::canonical(folder, error);
-  if (error || !fs::is_directory(real, error)) {
+  if (error) {
+    throw IoError({.where = folder.string(),
+                   .what = "the corpus cannot be opened",
+                   .expected = "a corpus folder with a corpus.json",
+                   .got = error.message()});
+  }
+  if (!fs::is_directory(real, error)) {
     throw InputError({.where = folder.string(),
                       .what = "is not a folder",
                       .expected = "a corpus folder with a corpus.json"});

@@ -31,9 +31,9 @@ fs::path path_in_corpus(const fs::path& folder, std::string_view named, std::str
   std::error_code error;
   const fs::path real = fs::canonical(folder / relative, error);
   if (error) {
-    refuse(error == std::errc::no_such_file_or_directory ? "does not exist"
-                                                         : "cannot be followed: " + error.message(),
-           "");
+    throw IoError({.where = std::string(where),
+                   .what = fmt::format("file {} cannot be opened", quoted(named)),
+                   .got = error.message()});
   }
   const auto [outside, ignored] =
       std::mismatch(folder.begin(), folder.end(), real.begin(), real.end());

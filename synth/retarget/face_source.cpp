@@ -57,9 +57,10 @@ FaceSource read_face(const std::filesystem::path& path, const Layout& layout) {
   std::error_code failure;
   const std::filesystem::file_status status = std::filesystem::status(path, failure);
   if (!std::filesystem::exists(status)) {
-    throw InputError({.where = path.string(),
-                      .what = "there is no such face",
-                      .expected = "a folder or a mesh"});
+    throw IoError({.where = path.string(),
+                   .what = "the face cannot be opened",
+                   .expected = "a folder or a mesh",
+                   .got = failure.message()});
   }
   if (layout.kind != LayoutKind::markers) {
     throw InputError({.where = path.string(),
