@@ -2,6 +2,7 @@
 #include "synth/pipeline/explain.h"
 
 #include "db/types/json_file.h"
+#include "db/types/phoneme_set.h"
 
 #include <algorithm>
 #include <string>
@@ -17,7 +18,7 @@ std::string join_word(const nlohmann::json& row, bool first) {
   if (row["node"].is_null()) {
     return "rest";
   }
-  if (row["phoneme"].get_ref<const std::string&>() == "pau" && !row["constrained"].get<bool>()) {
+  if (row["phoneme"].get_ref<const std::string&>() == kSilence && !row["constrained"].get<bool>()) {
     return "pause";
   }
   if (row["captured"].get<bool>()) {
@@ -47,22 +48,23 @@ std::size_t longest_key(const nlohmann::json& path) {
 
 std::string totals(const nlohmann::json& result) {
   double observation = 0.0, emotion = 0.0, transition = 0.0;
-  int joins = 0, captured = 0;
+  int phonemes = 0, joins = 0, captured = 0;
   bool first = true;
   for (const nlohmann::json& row : result["path"]) {
     observation += row["cost"]["observation"].get<double>();
     emotion += row["cost"]["emotion"].get<double>();
     transition += row["cost"]["transition"].get<double>();
+    phonemes += row["phoneme"].get_ref<const std::string&>() == kSilence ? 0 : 1;
     if (!row["node"].is_null()) {
       joins += first ? 0 : 1;
       captured += row["captured"].get<bool>() ? 1 : 0;
       first = false;
     }
   }
-  return fmt::format("cost {:.1f} = observation {:.1f} + emotion {:.1f} + transition {:.1f}; {} of "
-                     "{} joins as recorded\n",
-                     result["cost"].get<double>(), observation, emotion, transition, captured,
-                     joins);
+  return fmt::format("{} sounding phonemes: cost {:.1f} = observation {:.1f} + emotion {:.1f} + "
+                     "transition {:.1f}, {} of {} joins between chosen nodes as recorded\n",
+                     phonemes, result["cost"].get<double>(), observation, emotion, transition,
+                     captured, joins);
 }
 
 } // namespace

@@ -23,7 +23,8 @@ void run_verb(const SynthArguments& arguments, const CommonArguments& common,
   if (common.quiet) {
     return;
   }
-  print(fmt::format("{} phonemes, {:.2f} s: cost {:.1f}, {} of {} joins as recorded\n",
+  print(fmt::format("{} sounding phonemes, {:.2f} s: cost {:.1f}, {} of {} joins between chosen "
+                    "nodes as recorded\n",
                     report.phonemes, report.duration_s, report.cost, report.captured_joins,
                     report.joins));
   for (const std::string& note : report.notes) {

@@ -12,6 +12,8 @@
  *   landmarks: Record<string, Landmark>, credits: string[], synthetic: boolean}} PageData
  */
 
+const silence = 'pau';
+
 /** What is wrong with the page's data, in words for its reader. */
 export class DataError extends Error {}
 
@@ -77,6 +79,20 @@ export function indexAt(spans, time) {
 export function isJoin(phonemes, index) {
   const here = phonemes[index];
   return index > 0 && here.node !== null && phonemes[index - 1].node !== null && !here.captured;
+}
+
+/**
+ * What the program's own summary counts: phonemes without silence, the joins between chosen nodes
+ * (an inner silence has one too), and those of them that are as recorded.
+ * @param {Phoneme[]} phonemes
+ */
+export function counts(phonemes) {
+  const chosen = phonemes.filter(({ node }) => node !== null);
+  return {
+    phonemes: phonemes.filter(({ phoneme }) => phoneme !== silence).length,
+    joins: Math.max(0, chosen.length - 1),
+    captured: chosen.filter(({ captured }) => captured).length,
+  };
 }
 
 /** How phoneme `index` came to stand where it is, in words. */

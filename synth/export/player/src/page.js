@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-import { indexAt } from './data.js';
+import { counts, indexAt } from './data.js';
 import { fillFacts, millimetres, phonemeFacts } from './describe.js';
 import { closed_mm } from './measure.js';
 import { inkOn } from './timeline/lanes.js';
@@ -12,13 +12,12 @@ const notice_ms = 6000;
 export function showFacts(data) {
   byId('title').textContent = data.title;
   byId('synthetic').hidden = !data.synthetic;
-  const joined = data.phonemes.filter(({ node }) => node !== null);
-  const recorded = joined.filter(({ captured }) => captured).length;
+  const { phonemes, joins, captured } = counts(data.phonemes);
   byId('facts').textContent = [
     `${data.duration.toFixed(2)} s`,
     `${Number(data.fps.toFixed(3))} fps`,
-    `${data.phonemes.length} phonemes`,
-    `${recorded} of ${joined.length} joined as recorded`,
+    `${phonemes} sounding phonemes`,
+    `${captured} of ${joins} joins between chosen nodes as recorded`,
   ].join(' · ');
   byId('credits').textContent = data.credits.join(' · ');
   byId('credits').title = data.credits.join('\n');
