@@ -3,7 +3,7 @@
 #include "db/types/file_io.h"
 #include "tests/db/store/made_corpus.h"
 #include "tests/db/store/raw_database.h"
-#include "tests/db/types/expect_error.h"
+#include "tests/support/expect_error.h"
 
 #include <cstdlib>
 #include <filesystem>

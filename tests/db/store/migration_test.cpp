@@ -3,7 +3,7 @@
 #include "db/store/schema.h"
 #include "tests/db/store/made_corpus.h"
 #include "tests/db/store/raw_database.h"
-#include "tests/db/types/expect_error.h"
+#include "tests/support/expect_error.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 

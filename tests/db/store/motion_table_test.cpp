@@ -2,7 +2,7 @@
 #include "db/store/motion_database.h"
 #include "tests/db/store/made_corpus.h"
 #include "tests/db/store/raw_database.h"
-#include "tests/db/types/expect_error.h"
+#include "tests/support/expect_error.h"
 
 #include <algorithm>
 #include <set>

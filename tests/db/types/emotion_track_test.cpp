@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/types/emotion_track.h"
 
-#include "tests/db/types/expect_error.h"
+#include "tests/support/expect_error.h"
 
 #include <algorithm>
 #include <random>

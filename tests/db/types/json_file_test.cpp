@@ -2,7 +2,7 @@
 #include "db/types/json_file.h"
 
 #include "corpora_schema/embedded.h"
-#include "tests/db/types/expect_error.h"
+#include "tests/support/expect_error.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 #include "db/types/layout.h"
 
 #include "db/types/file_io.h"
-#include "tests/db/types/expect_error.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/shared_data.h"
 
 #include <algorithm>

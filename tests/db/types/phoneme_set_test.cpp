@@ -2,7 +2,7 @@
 #include "db/types/phoneme_set.h"
 
 #include "db/types/text.h"
-#include "tests/db/types/expect_error.h"
+#include "tests/support/expect_error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/types/errors.h"
 #include "synth/pipeline/transcript_steps.h"
+#include "tests/support/expect_error.h"
 #include "tests/synth/search/random_tables.h"
 
-#include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -41,15 +41,6 @@ NodeConstraint at_row(ConstraintKind kind, long row, std::vector<std::string> ke
   constraint.keys = std::move(keys);
   constraint.where = where;
   return constraint;
-}
-
-std::string input_error(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 void expect_contains(const std::string& text, const std::string& part) {
@@ -121,7 +112,8 @@ TEST(TranscriptSteps, ANodeOfAnotherPhonemeIsTakenWithAWarning) {
 TEST(TranscriptSteps, WhatCannotBeMetIsAnErrorThatNamesTheLine) {
   const MotionTable t = table();
   const auto error = [&](std::vector<NodeConstraint> constraints) {
-    return input_error([&] { make_transcript_steps(t, transcript(t), emotions(6), constraints); });
+    return test::input_error(
+        [&] { make_transcript_steps(t, transcript(t), emotions(6), constraints); });
   };
   expect_contains(error({at_row(ConstraintKind::use, 9, {t.key(0)})}), "c.txt:1");
   expect_contains(error({at_row(ConstraintKind::use, 1, {"s/e0/nowhere#1"})}), "c.txt:1");
@@ -145,11 +137,11 @@ TEST(TranscriptSteps, WhatCannotBeMetIsAnErrorThatNamesTheLine) {
 TEST(TranscriptSteps, AnUnknownEmotionAndAnyIntensityButOneAreRefused) {
   const MotionTable t = table();
   expect_contains(
-      input_error([&] { make_transcript_steps(t, transcript(t), emotions(6, "e9"), {}); }),
+      test::input_error([&] { make_transcript_steps(t, transcript(t), emotions(6, "e9"), {}); }),
       "Did you mean");
   std::vector<EmotionModifier> half = emotions(6);
   half[2].intensity = 0.5;
-  expect_contains(input_error([&] { make_transcript_steps(t, transcript(t), half, {}); }),
+  expect_contains(test::input_error([&] { make_transcript_steps(t, transcript(t), half, {}); }),
                   "style model");
 }
 

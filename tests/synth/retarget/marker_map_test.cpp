@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/retarget/marker_map.h"
 
-#include "db/types/errors.h"
+#include "tests/support/expect_error.h"
 #include "tests/synth/retarget/made_mesh.h"
 
 #include <gtest/gtest.h>
@@ -13,12 +13,7 @@ const Layout kLayout = test::made_layout(
     {{"lm3", {}, ""}, {"lm10", {}, ""}, {"lm0", {}, ""}, {"lm7", {}, ""}, {"lm8", {}, ""}});
 
 std::string error_of(std::string_view text) {
-  try {
-    parse_marker_map(text, "markers.tsv", kLayout, 20);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::input_error([&] { parse_marker_map(text, "markers.tsv", kLayout, 20); });
 }
 
 TEST(MarkerMap, ReadsATableWithFurtherColumns) {

@@ -2,6 +2,7 @@
 #include "synth/retarget/mesh_reader.h"
 
 #include "db/types/errors.h"
+#include "tests/support/expect_error.h"
 
 #include <random>
 
@@ -13,12 +14,7 @@ namespace {
 constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\n";
 
 std::string error_of(std::string_view text) {
-  try {
-    parse_obj(text, "face.obj");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::input_error([&] { parse_obj(text, "face.obj"); });
 }
 
 TEST(ObjReader, ReadsEveryWayToWriteACorner) {

@@ -4,6 +4,7 @@
 #include "db/import/sentence_table.h"
 #include "db/types/errors.h"
 #include "tests/db/import/importer/corpus_folder.h"
+#include "tests/support/expect_error.h"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +12,7 @@ namespace phonomime {
 namespace {
 
 std::string table_error(std::string_view table) {
-  try {
-    parse_sentence_table(table, "s.tsv", "someone");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return test::input_error([&] { parse_sentence_table(table, "s.tsv", "someone"); });
 }
 
 TEST(SentenceTable, IsReadWhateverItsLineEndsMarkAndOrderOfColumns) {

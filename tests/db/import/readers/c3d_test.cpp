@@ -2,7 +2,7 @@
 #include "db/import/c3d_bytes.h"
 #include "db/import/readers.h"
 #include "tests/db/import/readers/c3d_writer.h"
-#include "tests/db/import/readers/expect_error.h"
+#include "tests/support/expect_error.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/import/readers.h"
-#include "tests/db/import/readers/expect_error.h"
 #include "tests/db/import/readers/textgrid_samples.h"
+#include "tests/support/expect_error.h"
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 #include "db/import/readers.h"
 #include "db/types/file_io.h"
 #include "tests/db/import/readers/c3d_writer.h"
-#include "tests/db/import/readers/expect_error.h"
 #include "tests/db/import/readers/textgrid_samples.h"
+#include "tests/support/expect_error.h"
 
 #include <unistd.h>
 

@@ -25,4 +25,11 @@ inline std::string input_error(const std::function<void()>& action) {
   return {};
 }
 
+// The same, and the message has this part.
+inline void expect_error(const std::function<void()>& action, const std::string& part) {
+  const std::string message = input_error(action);
+  EXPECT_NE(message.find(part), std::string::npos)
+      << "message: " << message << "\nwithout: " << part;
+}
+
 } // namespace phonomime::test
