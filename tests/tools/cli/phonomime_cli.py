@@ -16,6 +16,8 @@ import sys
 import tempfile
 import unittest
 
+import tiny_corpus
+
 PROGRAM = os.environ.get("PHONOMIME", "phonomime")
 SOURCE_DIR = pathlib.Path(__file__).resolve().parents[3]
 TIME_LIMIT_S = 300
@@ -121,12 +123,18 @@ def write_transcript(path, phonemes, each_s=0.1, rest_s=0.3):
     return write_lab(path, [(rest_s, "pau"), *zip(ends, phonemes), (ends[-1] + rest_s, "pau")])
 
 
+def scratch_folder(add_cleanup):
+    """A folder that is there until `add_cleanup` (of a test or of its class) has it removed."""
+    folder = tempfile.TemporaryDirectory(prefix="phonomime_cli_", ignore_cleanup_errors=True)
+    add_cleanup(folder.cleanup)
+    return pathlib.Path(folder.name)
+
+
 class CliTest(unittest.TestCase):
-    """Tests with a folder of their own, `self.folder`."""
+    """Each test has a folder of its own, `self.folder`."""
 
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="phonomime_cli_"))
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        self.folder = scratch_folder(self.addCleanup)
 
     def assertRefused(self, status, words, *arguments, **options):
         """One line on stderr with all of the words, nothing on stdout, this status, and every file of
@@ -143,6 +151,33 @@ class CliTest(unittest.TestCase):
             self.assertIn(str(word), result.stderr, said)
         self.assertEqual(contents(self.folder), before, said)
         return result.stderr
+
+
+class DatabaseTest(CliTest):
+    """Each test has a new copy of a database, `self.database`, of the corpus that CORPUS describes."""
+
+    CORPUS = {}  # arguments of tiny_corpus.Corpus
+
+    @classmethod
+    def setUpClass(cls):
+        folder = scratch_folder(cls.addClassCleanup)
+        run_well("import", tiny_corpus.Corpus(folder / "corpus", **cls.CORPUS).write(), "--db", folder / "made.db")
+        cls.made = (folder / "made.db").read_bytes()
+
+    def setUp(self):
+        super().setUp()
+        self.database = self.folder / "made.db"
+        self.database.write_bytes(self.made)
+
+
+class RecordingsTest(unittest.TestCase):
+    """All tests share a folder, `self.folder`, with a database of the corpus grid_s1, `self.database`."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = scratch_folder(cls.addClassCleanup)
+        cls.database = cls.folder / "grid_s1.db"
+        run_well("import", SHARED_DATA / "grid_s1", "--db", cls.database)
 
 
 def main():

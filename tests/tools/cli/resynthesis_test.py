@@ -3,34 +3,20 @@
 import csv
 import json
 import math
-import pathlib
 import sqlite3
 import struct
-import subprocess
 import sys
-import tempfile
-import unittest
 
 import phonomime_cli as cli
 
-READER = cli.SOURCE_DIR / "tests/tools/demo/read_c3d.py"
+sys.path.insert(0, str(cli.SOURCE_DIR / "tests/support"))
+import read_c3d
+
 SILENCE = ("pau", "sil", "sp", "")
 SENTENCES = 24
 RATE_HZ = 100
 # Markers of the lips, jaw, cheeks and nose: the distances between them do not know where the head is.
 MARKERS = ("lm61", "lm291", "lm0", "lm17", "lm13", "lm14", "lm152", "lm78", "lm308", "lm205", "lm425", "lm1")
-
-
-def setUpModule():
-    global folder, database, info
-    if cli.SHARED_DATA is None:
-        return
-    spare = tempfile.TemporaryDirectory(prefix="phonomime_cli_")
-    unittest.addModuleCleanup(spare.cleanup)
-    folder = pathlib.Path(spare.name)
-    database = folder / "grid_s1.db"
-    cli.run_well("import", cli.SHARED_DATA / "grid_s1", "--db", database)
-    info = cli.run_json("info", database)
 
 
 def read_lab(path):
@@ -41,15 +27,9 @@ def read_lab(path):
 
 def read_recording(path):
     """Rate, and the markers of each frame: {name: (x, y, z)}, without those that are missing."""
-    said = subprocess.run([sys.executable, "-B", READER, path], stdout=subprocess.PIPE, text=True, check=True)
-    first, *lines = said.stdout.splitlines()
-    rate, count = float(first.split()[0]), int(first.split()[1])
-    frames = [{} for _ in range(count)]
-    for line in lines:
-        k, name, x, y, z, residual = line.split()
-        if float(residual) >= 0:
-            frames[int(k)][name] = (float(x), float(y), float(z))
-    return rate, frames
+    recording = read_c3d.read(path)
+    return recording.rate_hz, [{name: point for name, (*point, residual) in zip(recording.names, frame) if residual >= 0}
+                               for frame in recording.frames]
 
 
 def read_motion(path):
@@ -71,7 +51,7 @@ def root_mean(squares):
     return math.sqrt(sum(squares) / len(squares))
 
 
-def pca_error_mm():
+def pca_error_mm(database):
     """RMS of the distance of two markers that the PCA leaves out: the variance not explained is spread
     over the channels, and a distance changes with one channel of either marker."""
     connection = sqlite3.connect(f"file:{database}?mode=ro", uri=True)
@@ -82,12 +62,13 @@ def pca_error_mm():
 
 
 @cli.needs_shared_data
-class ResynthesisTest(unittest.TestCase):
+class ResynthesisTest(cli.RecordingsTest):
     @classmethod
     def setUpClass(cls):
         """Sentences without a silence inside, a gap or a suspect, spread over the corpus."""
+        super().setUpClass()
         spoilt = {node["sentence"] for flag in ("--gaps", "--suspect")
-                  for node in cli.run_json("nodes", database, flag)}
+                  for node in cli.run_json("nodes", cls.database, flag)}
         whole = []
         for path in sorted((cli.SHARED_DATA / "grid_s1/alignment").glob("*.lab")):
             inner = [label for _, label in read_lab(path)[1:-1]]
@@ -96,13 +77,13 @@ class ResynthesisTest(unittest.TestCase):
         cls.sentences = whole[:: len(whole) // SENTENCES][:SENTENCES]
         cls.outputs = {}
         for path in cls.sentences:
-            motion, result = folder / f"{path.stem}.csv", folder / f"{path.stem}.json"
-            cli.run_well("synth", "--db", database, path, "--fps", RATE_HZ, "-o", motion, "-o", result)
+            motion, result = (cls.folder / f"{path.stem}.{kind}" for kind in ("csv", "json"))
+            cli.run_well("synth", "--db", cls.database, path, "--fps", RATE_HZ, "-o", motion, "-o", result)
             cls.outputs[path] = motion, json.loads(result.read_text())
 
     def test_there_are_sentences_enough(self):
         self.assertGreaterEqual(len(self.sentences), 20)
-        self.assertEqual(info["rate"], RATE_HZ)
+        self.assertEqual(cli.run_json("info", self.database)["rate"], RATE_HZ)
 
     def test_its_own_nodes_come_back_all_joins_captured(self):
         for path, (_, result) in self.outputs.items():
@@ -115,7 +96,8 @@ class ResynthesisTest(unittest.TestCase):
 
     def test_the_motion_is_the_recorded_one(self):
         """At the recorded frames that the phonemes hold, to twice what the PCA leaves out (E11)."""
-        bound_mm = 2 * pca_error_mm()
+        left_out_mm = pca_error_mm(self.database)
+        bound_mm = 2 * left_out_mm
         every, worst = [], 0.0
         for path, (motion, result) in self.outputs.items():
             rate, recorded = read_recording(cli.SHARED_DATA / f"grid_s1/motion/{path.stem}.c3d")
@@ -128,7 +110,7 @@ class ResynthesisTest(unittest.TestCase):
             every += squares
             worst = max(worst, root_mean(squares))
         print(f"\ndistances of markers: RMS {root_mean(every):.3f} mm over {len(self.outputs)} sentences, "
-              f"worst sentence {worst:.3f} mm, the PCA alone {pca_error_mm():.3f} mm")
+              f"worst sentence {worst:.3f} mm, the PCA alone {left_out_mm:.3f} mm")
         self.assertLess(root_mean(every), bound_mm)
         self.assertLess(worst, 1.5 * bound_mm)
 

@@ -67,9 +67,9 @@ bool has_program(const std::string& name) {
 }
 
 ReadC3d read_with_python(const std::filesystem::path& file) {
-  const std::string reader = PHONOMIME_SOURCE_DIR "/tests/tools/demo/read_c3d.py";
+  const std::string reader = PHONOMIME_SOURCE_DIR "/tests/support/read_c3d.py";
   const CommandResult result =
-      run("python3 " + shell_quoted(reader) + " " + shell_quoted(file.string()));
+      run("python3 -B " + shell_quoted(reader) + " " + shell_quoted(file.string()));
   if (result.status != 0)
     throw std::runtime_error(result.output);
   std::istringstream in(result.output);

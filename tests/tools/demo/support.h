@@ -44,7 +44,7 @@ CommandResult run(const std::string& command);
 // An argument for run(), quoted for the shell.
 std::string shell_quoted(std::string_view argument);
 
-// A point as tests/tools/demo/read_c3d.py reads it.
+// A point as tests/support/read_c3d.py reads it.
 struct ReadPoint {
   long frame = 0;
   std::string name;

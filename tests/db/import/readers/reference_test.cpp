@@ -30,7 +30,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
 
 // What the script prints for the files; nothing where there is no Python.
 std::string reference(const std::string& mode, const std::vector<std::filesystem::path>& files) {
-  std::string command = "python3 " + std::string(PHONOMIME_SOURCE_DIR) +
+  std::string command = "python3 -B " + std::string(PHONOMIME_SOURCE_DIR) +
                         "/tests/db/import/readers/reference_reader.py " + mode;
   for (const std::filesystem::path& file : files) {
     command += " '" + file.string() + "'";
