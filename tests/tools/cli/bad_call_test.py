@@ -1,29 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A call that asks for what cannot be is refused with one line, and no file is made or changed."""
-import pathlib
-import tempfile
-
 import phonomime_cli as cli
 import tiny_corpus
 
 SPOKEN = "b aa m eh p iy s ow l f".split()
 
 
-class BadCallTest(cli.CliTest):
+class BadCallTest(cli.DatabaseTest):
     """A database of two emotions, a transcript, a face, and an output of an earlier call."""
 
-    @classmethod
-    def setUpClass(cls):
-        with tempfile.TemporaryDirectory(prefix="phonomime_cli_") as name:
-            folder = pathlib.Path(name)
-            tiny_corpus.Corpus(folder / "ann", emotions=("neutral", "happiness")).write()
-            cli.run_well("import", folder / "ann", "--db", folder / "ann.db")
-            cls.made = (folder / "ann.db").read_bytes()
+    CORPUS = {"emotions": ("neutral", "happiness")}
 
     def setUp(self):
         super().setUp()
-        self.database = self.folder / "ann.db"
-        self.database.write_bytes(self.made)
         self.transcript = cli.write_transcript(self.folder / "hello.lab", SPOKEN)
         self.face = tiny_corpus.write_face(self.folder / "face")
         self.outputs = [self.folder / f"out.{kind}" for kind in cli.KINDS]
@@ -224,7 +213,7 @@ class BadCallTest(cli.CliTest):
 
     def test_places_that_cannot_be_written(self):
         (self.folder / "folder.csv").mkdir()
-        for place in ("ann.db/new.csv", "nowhere/new.csv", "/proc/new.csv", "folder.csv"):
+        for place in ("made.db/new.csv", "nowhere/new.csv", "/proc/new.csv", "folder.csv"):
             with self.subTest(place):
                 self.outputs[2] = self.folder / place
                 self.assertSynthRefused(self.outputs[2], status=cli.IO)

@@ -2,9 +2,7 @@
 """A corpus that is wrong is refused with one line, and the database is as it was."""
 import json
 import os
-import pathlib
 import struct
-import tempfile
 
 import phonomime_cli as cli
 import tiny_corpus
@@ -34,33 +32,26 @@ def parameter_at(data, name):
     return at + len(name) + 2 + 2
 
 
-class BadCorpusTest(cli.CliTest):
+class BadCorpusTest(cli.DatabaseTest):
     """Each test spoils a corpus that would be taken, next to a database that already holds another."""
 
-    @classmethod
-    def setUpClass(cls):
-        with tempfile.TemporaryDirectory(prefix="phonomime_cli_") as name:
-            folder = pathlib.Path(name)
-            tiny_corpus.Corpus(folder / "old", name="old", first=50).write()
-            cli.run_well("import", folder / "old", "--db", folder / "kept.db")
-            cls.kept = (folder / "kept.db").read_bytes()
+    CORPUS = {"name": "old", "first": 50}
 
     def setUp(self):
         super().setUp()
-        (self.folder / "kept.db").write_bytes(self.kept)
         self.corpus = tiny_corpus.Corpus(self.folder / "new")
         self.spoilt = self.corpus.sentences[1]
 
     def assertImportRefused(self, *words, status=cli.BAD_INPUT, options=()):
         """Into a new database (none appears) and into one that holds another corpus (as it was)."""
         self.corpus.write()
-        for database in ("none.db", "kept.db"):
+        for database in ("none.db", "made.db"):
             line = self.assertRefused(status, words, "import", self.corpus.folder, "--db", self.folder / database, *options)
         return line
 
     def test_the_corpus_is_good_before_it_is_spoilt(self):
         self.corpus.write()
-        for database in ("none.db", "kept.db"):
+        for database in ("none.db", "made.db"):
             cli.run_well("import", self.corpus.folder, "--db", self.folder / database)
 
     # C3D
@@ -182,12 +173,12 @@ class BadCorpusTest(cli.CliTest):
 
     def test_a_sentence_that_the_database_has(self):
         again = tiny_corpus.Corpus(self.folder / "new", name="old", first=50).write()
-        self.assertRefused(cli.BAD_INPUT, ["old/neutral/u050", "sentences.tsv:2"], "import", again, "--db", self.folder / "kept.db")
+        self.assertRefused(cli.BAD_INPUT, ["old/neutral/u050", "sentences.tsv:2"], "import", again, "--db", self.folder / "made.db")
 
     def test_another_layout_than_the_databases(self):
         self.corpus.layout["groups"].pop()
         self.corpus.write()
-        self.assertRefused(cli.BAD_INPUT, ["layout"], "import", self.corpus.folder, "--db", self.folder / "kept.db")
+        self.assertRefused(cli.BAD_INPUT, ["layout"], "import", self.corpus.folder, "--db", self.folder / "made.db")
 
     def test_paths_that_leave_the_folder(self):
         outside = self.folder / "outside.c3d"
@@ -224,7 +215,7 @@ class BadCorpusTest(cli.CliTest):
         def spoil(name, text):
             self.corpus.write()
             (self.corpus.folder / name).write_text(text)
-            return self.assertRefused(cli.BAD_INPUT, [name], "import", self.corpus.folder, "--db", self.folder / "kept.db")
+            return self.assertRefused(cli.BAD_INPUT, [name], "import", self.corpus.folder, "--db", self.folder / "made.db")
         spoil("corpus.json", "{")
         spoil("corpus.json", "[" * 100000)
         misspelt = json.dumps({**self.corpus.description, "phoneme_sett": "arpabet"})

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A database that is not one, or that cannot be written, is refused with one line and left alone."""
-import pathlib
 import sqlite3
 import subprocess
 import sys
-import tempfile
 
 import phonomime_cli as cli
 import tiny_corpus
@@ -18,19 +16,9 @@ sys.stdin.read()
 """
 
 
-class BadDatabaseTest(cli.CliTest):
-    @classmethod
-    def setUpClass(cls):
-        with tempfile.TemporaryDirectory(prefix="phonomime_cli_") as name:
-            folder = pathlib.Path(name)
-            tiny_corpus.Corpus(folder / "ann").write()
-            cli.run_well("import", folder / "ann", "--db", folder / "ann.db")
-            cls.made = (folder / "ann.db").read_bytes()
-
+class BadDatabaseTest(cli.DatabaseTest):
     def setUp(self):
         super().setUp()
-        self.database = self.folder / "ann.db"
-        self.database.write_bytes(self.made)
         self.corpus = tiny_corpus.Corpus(self.folder / "bob", name="bob", first=20).write()
         self.transcript = cli.write_transcript(self.folder / "hello.lab", ["b", "aa", "m"])
 
@@ -123,7 +111,7 @@ class BadDatabaseTest(cli.CliTest):
         cli.run_well(*self.calls()[-1])
 
     def test_places_that_cannot_be_written(self):
-        for place in ("nowhere/new.db", "ann.db/new.db", "/proc/new.db"):
+        for place in ("nowhere/new.db", "made.db/new.db", "/proc/new.db"):
             with self.subTest(place):
                 path = self.folder / place
                 self.assertRefused(cli.IO, [path], "import", self.corpus, "--db", path)

@@ -2,12 +2,10 @@
 """How the program behaves on a terminal and in a pipe, and what its help says."""
 import json
 import os
-import pathlib
 import pty
 import re
 import shlex
 import subprocess
-import tempfile
 
 import phonomime_cli as cli
 import tiny_corpus
@@ -18,9 +16,7 @@ VERBS = ("import", "info", "nodes", "synth", "explain")
 class CallsTest(cli.CliTest):
     @classmethod
     def setUpClass(cls):
-        spare = tempfile.TemporaryDirectory(prefix="phonomime_cli_")
-        cls.addClassCleanup(spare.cleanup)
-        folder = pathlib.Path(spare.name)
+        folder = cli.scratch_folder(cls.addClassCleanup)
         cls.corpus = tiny_corpus.Corpus(folder / "ann", sentences=30).write()
         cls.database = folder / "ann.db"
         cli.run_well("import", cls.corpus, "--db", cls.database)

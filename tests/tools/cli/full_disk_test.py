@@ -16,9 +16,7 @@ class FullDiskTest(cli.CliTest):
 
     @classmethod
     def setUpClass(cls):
-        spare = tempfile.TemporaryDirectory(prefix="phonomime_cli_")
-        cls.addClassCleanup(spare.cleanup)
-        folder = pathlib.Path(spare.name)
+        folder = cli.scratch_folder(cls.addClassCleanup)
         cls.ann, cls.both = folder / "ann.db", folder / "both.db"
         cls.bob = tiny_corpus.Corpus(folder / "bob", name="bob", first=20).write()
         cli.run_well("import", tiny_corpus.Corpus(folder / "ann").write(), "--db", cls.ann)

@@ -6,7 +6,6 @@ import pathlib
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 
 import phonomime_cli as cli
@@ -20,9 +19,7 @@ Import = collections.namedtuple("Import", "status said work_s")
 class KillTest(cli.CliTest):
     @classmethod
     def setUpClass(cls):
-        spare = tempfile.TemporaryDirectory(prefix="phonomime_cli_")
-        cls.addClassCleanup(spare.cleanup)
-        folder = pathlib.Path(spare.name)
+        folder = cli.scratch_folder(cls.addClassCleanup)
         cls.old = tiny_corpus.Corpus(folder / "old", name="old", first=500).write()
         cls.new = tiny_corpus.Corpus(folder / "new", sentences=80, phonemes=40).write()
         cls.next = tiny_corpus.Corpus(folder / "next", name="next", sentences=1, first=900).write()

@@ -4,7 +4,6 @@ import json
 import os
 import pathlib
 import subprocess
-import tempfile
 import unittest
 import wave
 
@@ -31,18 +30,7 @@ LENGTH_S = {"b": 0.08, "p": 0.09, "m": 0.08, "d": 0.06, "t": 0.07, "k": 0.08, "g
 VOWEL_S = 0.12
 
 
-def setUpModule():
-    global folder, database
-    if cli.SHARED_DATA is None or "html" not in cli.KINDS:
-        return
-    spare = tempfile.TemporaryDirectory(prefix="phonomime_cli_")
-    unittest.addModuleCleanup(spare.cleanup)
-    folder = pathlib.Path(spare.name)
-    database = folder / "grid_s1.db"
-    cli.run_well("import", cli.SHARED_DATA / "grid_s1", "--db", database)
-
-
-def write_speech(name):
+def write_speech(folder, name):
     """The transcript, and sound of its length cut from the recordings'. Returns paths and the end."""
     t, rows = 0.25, [(0.25, "sil")]
     for phoneme in SPEECH[name].split():
@@ -61,15 +49,6 @@ def write_speech(name):
         written.setparams(form)
         written.writeframes(samples[: round(end_s * form.framerate) * form.sampwidth * form.nchannels])
     return cli.write_lab(folder / f"{name}.lab", rows), audio, end_s
-
-
-def synthesise(name, face, fps=30):
-    """The path of the page, of the other outputs by kind, and the end of the transcript."""
-    transcript, audio, end_s = write_speech(name)
-    outputs = {kind: folder / f"{name}-{face}-{fps}.{kind}" for kind in cli.KINDS}
-    cli.run_well("synth", "--db", database, transcript, "--audio", audio, "--fps", fps, "--face",
-                 cli.SHARED_DATA / "faces" / face, *(word for path in outputs.values() for word in ("-o", path)))
-    return outputs, end_s
 
 
 def measure(page):
@@ -98,7 +77,16 @@ def smallest_aperture(curve_mm, rate_hz, start_s, end_s):
 
 @cli.needs_shared_data
 @unittest.skipUnless("html" in cli.KINDS, "skipped: the program was built without the player")
-class MainJobTest(unittest.TestCase):
+class MainJobTest(cli.RecordingsTest):
+    def synthesise(self, name, face, fps=30):
+        """The paths of the outputs by kind, and the end of the transcript."""
+        transcript, audio, end_s = write_speech(self.folder, name)
+        outputs = {kind: self.folder / f"{name}-{face}-{fps}.{kind}" for kind in cli.KINDS}
+        cli.run_well("synth", "--db", self.database, transcript, "--audio", audio, "--fps", fps, "--face",
+                     cli.SHARED_DATA / "faces" / face,
+                     *(word for path in outputs.values() for word in ("-o", path)))
+        return outputs, end_s
+
     def check_page(self, measured, end_s):
         self.assertAlmostEqual(measured["duration"], end_s, places=4)
         self.assertEqual(measured["fps"], 30)
@@ -116,7 +104,7 @@ class MainJobTest(unittest.TestCase):
         """(transcript, row, smallest aperture in mm) of each /p b m/ whose node was recorded closed."""
         found = []
         for name in SPEECH:
-            outputs, end_s = synthesise(name, face)
+            outputs, end_s = self.synthesise(name, face)
             for path in outputs.values():
                 self.assertGreater(path.stat().st_size, 1000, path)
             measured = measure(outputs["html"])
