@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/import/pca.h"
 
-#include "db/import/parallel.h"
 #include "db/types/errors.h"
+#include "db/types/parallel_for.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/import/survey.h"
 
-#include "db/import/parallel.h"
 #include "db/import/readers.h"
 #include "db/import/reference_pose.h"
 #include "db/import/sentence_table.h"
 #include "db/types/errors.h"
 #include "db/types/frame_times.h"
+#include "db/types/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>

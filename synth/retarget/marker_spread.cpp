@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/retarget/marker_spread.h"
 
+#include "db/types/parallel_for.h"
+
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <set>
 
 namespace phonomime {
@@ -11,25 +12,6 @@ namespace {
 
 constexpr int kNearest = 3;
 constexpr double kSmallestWeight = 1e-12;
-
-// Runs work(k) for every k in several threads; the first failure by k is thrown afterwards.
-template <typename Work>
-void for_each_marker(int count, int threads, Work work) {
-  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));
-#pragma omp parallel for schedule(dynamic) num_threads(std::max(threads, 1))
-  for (int k = 0; k < count; ++k) {
-    try {
-      work(k);
-    } catch (...) {
-      failures[static_cast<std::size_t>(k)] = std::current_exception();
-    }
-  }
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) {
-      std::rethrow_exception(failure);
-    }
-  }
-}
 
 // For each marker, the vertices of the markers whose cells touch its own by an edge.
 std::vector<std::set<int>> touching_cells(const EdgeGraph& graph,
@@ -136,7 +118,7 @@ MarkerDistances::MarkerDistances(const EdgeGraph& graph, std::span<const int> ma
     }
   }
   const auto touching = touching_cells(graph, marker_vertices);
-  for_each_marker(static_cast<int>(marker_vertices.size()), threads, [&](int marker) {
+  parallel_for(std::ssize(marker_vertices), threads, [&](std::ptrdiff_t marker) {
     const auto k = static_cast<std::size_t>(marker);
     if (marker_vertices_[k] >= 0) {
       const Sigmas found = sigmas_of(graph_, marker_vertices_[k], is_marker, touching[k]);
@@ -151,7 +133,7 @@ MarkerDistances::MarkerDistances(const EdgeGraph& graph, std::span<const int> ma
 SpreadWeights MarkerDistances::weights(std::span<const double> sigma_mm) const {
   const int count = static_cast<int>(marker_vertices_.size());
   std::vector<std::vector<Eigen::Triplet<double>>> columns(marker_vertices_.size());
-  for_each_marker(count, threads_, [&](int marker) {
+  parallel_for(count, threads_, [&](std::ptrdiff_t marker) {
     const auto k = static_cast<std::size_t>(marker);
     if (marker_vertices_[k] < 0) {
       return;
@@ -163,7 +145,7 @@ SpreadWeights MarkerDistances::weights(std::span<const double> sigma_mm) const {
       if (weight < kSmallestWeight) {
         return;
       }
-      columns[k].emplace_back(step.vertex, marker, weight);
+      columns[k].emplace_back(step.vertex, static_cast<int>(marker), weight);
     }
   });
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(graph_.vertex_count());

@@ -13,7 +13,7 @@ namespace phonomime {
 // How E14-E15 spread the markers' motion over the mesh (DESIGN section 7).
 struct SpreadOptions {
   double sigma_mm = 0.0; // one sigma for all markers and one pass of E15; 0 = as below
-  int threads = 1;       // the result does not depend on it
+  int threads = 1;       // 0: as many as there are; the result does not depend on it
 };
 
 // #vertices by #markers: row i times the markers' motions is VtxMotion_i.

@@ -2,11 +2,11 @@
 #include "tools/app/import_corpus.h"
 
 #include "db/import/corpus.h"
-#include "db/import/parallel.h"
 #include "db/import/prepare.h"
 #include "db/import/suspect.h"
 #include "db/store/motion_database.h"
 #include "db/types/errors.h"
+#include "db/types/parallel_for.h"
 #include "db/types/text.h"
 
 #include <algorithm>

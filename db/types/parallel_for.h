@@ -11,7 +11,7 @@ namespace phonomime {
 
 // body(i) for i = 0 .. count - 1 over `threads` threads (0: as many as there are). Nothing leaves
 // the parallel region by an exception: they are kept, and the one of the least i is thrown after
-// it.
+// it. Who includes this links OpenMP::OpenMP_CXX.
 template <typename Body>
 void parallel_for(std::ptrdiff_t count, int threads, const Body& body) {
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));
