@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/import/resample.h"
 
+#include "db/types/low_pass.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace phonomime {
 
 namespace {
 
-constexpr double kSameTime_frames = 1e-6;  // recorded frames: rounding of times
-constexpr double kPassed = 0.9;            // of the new Nyquist frequency
-constexpr double kHalfWidth_frames = 10.0; // of the low-pass, in new frames
-constexpr double kKaiserBeta = 7.0;        // side lobes under -70 dB
+constexpr double kSameTime_frames = 1e-6; // recorded frames: rounding of times
+
+// Side lobes under -70 dB.
+constexpr LowPassShape kLowPass{.cutoff = 0.9, .half_width_frames = 10.0, .kaiser_beta = 7.0};
 
 bool goes_down(const SourceClock& recorded, double rate_hz) {
   return rate_hz < recorded.rate_hz * (1.0 - 1e-9);
@@ -66,46 +67,14 @@ FrameMatrixD upsample(const FrameMatrixD& y, const SourceClock& recorded, double
   return result;
 }
 
-// Kaiser-windowed sinc at `time` new frames from its middle.
-double low_pass(double time) {
-  const double x = time / kHalfWidth_frames;
-  if (std::abs(x) >= 1.0) {
-    return 0.0;
-  }
-  const double phase = std::numbers::pi * kPassed * time;
-  const double sinc = std::abs(phase) < 1e-9 ? 1.0 : std::sin(phase) / phase;
-  return sinc * std::cyl_bessel_i(0.0, kKaiserBeta * std::sqrt(1.0 - x * x));
-}
-
 FrameMatrixD downsample(const FrameMatrixD& y, const SourceClock& recorded, double rate_hz,
                         Eigen::Index count) {
-  const auto last = y.rows() - 1;
-  const double new_per_recorded = rate_hz / recorded.rate_hz;
-  const double reach = kHalfWidth_frames / new_per_recorded; // recorded frames
-  FrameMatrixD result = FrameMatrixD::Zero(count, y.cols());
+  std::vector<double> positions;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const double at = std::clamp(position(k, recorded, rate_hz), 0.0, static_cast<double>(last));
-    double sum = 0.0;
-    for (auto j = static_cast<Eigen::Index>(std::ceil(at - reach));
-         static_cast<double>(j) <= at + reach; ++j) {
-      const double weight = low_pass((static_cast<double>(j) - at) * new_per_recorded);
-      sum += weight;
-      // Beyond an end the recording goes on as its reflection through that end's frame.
-      const Eigen::Index inside = std::clamp<Eigen::Index>(j < 0      ? -j
-                                                           : j > last ? 2 * last - j
-                                                                      : j,
-                                                           0, last);
-      if (j < 0) {
-        result.row(k) += weight * (2.0 * y.row(0) - y.row(inside));
-      } else if (j > last) {
-        result.row(k) += weight * (2.0 * y.row(last) - y.row(inside));
-      } else {
-        result.row(k) += weight * y.row(inside);
-      }
-    }
-    result.row(k) /= sum;
+    positions.push_back(
+        std::clamp(position(k, recorded, rate_hz), 0.0, static_cast<double>(y.rows() - 1)));
   }
-  return result;
+  return low_pass(y, positions, LowPassKernel(recorded.rate_hz, rate_hz, kLowPass));
 }
 
 } // namespace

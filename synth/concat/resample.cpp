@@ -3,11 +3,11 @@
 
 #include "db/types/errors.h"
 #include "db/types/frame_times.h"
-#include "synth/concat/low_pass_kernel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace phonomime {
 namespace {
@@ -32,34 +32,12 @@ void check(const CoefficientMotion& motion, double fps, double end_s) {
 // Column-wise change of rate. `source`: n by anything, n >= 1.
 FrameMatrixD resample_columns(const FrameMatrixD& source, double rate_hz, double fps,
                               Eigen::Index count) {
-  const LowPassKernel kernel(rate_hz, fps);
-  const Eigen::Index last = source.rows() - 1;
-  FrameMatrixD result(count, source.cols());
-  Eigen::RowVectorXd sum(source.cols());
+  std::vector<double> positions;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const double position =
-        std::min(static_cast<double>(k) * rate_hz / fps, static_cast<double>(last));
-    const auto first_tap = static_cast<Eigen::Index>(std::ceil(position - kernel.half_width()));
-    const auto last_tap = static_cast<Eigen::Index>(std::floor(position + kernel.half_width()));
-    // Deviations from the nearest frame are summed, not values: a constant stays exact.
-    const auto base = source.row(static_cast<Eigen::Index>(std::llround(position)));
-    double weights = 0.0;
-    sum.setZero();
-    for (Eigen::Index tap = first_tap; tap <= last_tap; ++tap) {
-      const double weight = kernel(static_cast<double>(tap) - position);
-      weights += weight;
-      if (tap < 0) {
-        sum += weight * (2.0 * source.row(0) - source.row(std::min(-tap, last)) - base);
-      } else if (tap > last) {
-        sum += weight * (2.0 * source.row(last) -
-                         source.row(std::max(2 * last - tap, Eigen::Index{0})) - base);
-      } else {
-        sum += weight * (source.row(tap) - base);
-      }
-    }
-    result.row(k) = base + sum / weights;
+    positions.push_back(
+        std::min(static_cast<double>(k) * rate_hz / fps, static_cast<double>(source.rows() - 1)));
   }
-  return result;
+  return low_pass(source, positions, LowPassKernel(rate_hz, fps, kOutputLowPass));
 }
 
 FrameMatrixD copy_frames(const FrameMatrixD& source, Eigen::Index count) {

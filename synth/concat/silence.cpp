@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/concat/silence.h"
 
-#include "synth/concat/portable_sine.h"
+#include "db/types/portable_sine.h"
 
 #include <algorithm>
 

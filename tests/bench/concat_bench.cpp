@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/types/frame_times.h"
 #include "synth/concat/concatenate.h"
-#include "synth/concat/low_pass_kernel.h"
 #include "synth/concat/resample.h"
 #include "tests/bench/compare.h"
 #include "tests/synth/concat/plain_concatenate.h"
@@ -38,7 +37,7 @@ struct Speech {
 
 // Every output sample as a sum over every frame of the motion, continued far beyond both ends.
 FrameMatrixD plain_resample(const CoefficientMotion& motion, double fps, double end_s) {
-  const LowPassKernel kernel(motion.rate_hz, fps);
+  const LowPassKernel kernel(motion.rate_hz, fps, kOutputLowPass);
   const Eigen::Index n = motion.coefficients.rows();
   const Eigen::Index margin = std::min(n - 1, Eigen::Index{64});
   FrameMatrixD extended(n + 2 * margin, kDimensions);

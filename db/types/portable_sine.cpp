@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "synth/concat/portable_sine.h"
+#include "db/types/portable_sine.h"
 
 #include <cmath>
 #include <numbers>
