@@ -255,11 +255,31 @@ TEST_F(MotionTableTest, NodesAreListedByEveryFilter) {
   expect({.suspect = false}, [](const auto& n) { return n.suspect.empty(); });
   expect({.has_gap = true}, [](const auto& n) { return n.key == "s1/neutral/b#3"; });
   EXPECT_TRUE(database.list_nodes({.pruned = true}).empty());
-  EXPECT_TRUE(database.list_nodes({.sentence = "b' OR 1 --"}).empty());
   const auto suspect = database.list_nodes({.suspect = true});
   EXPECT_EQ(suspect.at(0).suspect, (std::vector<std::string>{"closed", "jump"}));
   EXPECT_DOUBLE_EQ(suspect.at(0).start_s, corpus.sentences[0].rows[2].start_s);
   EXPECT_DOUBLE_EQ(suspect.at(0).end_s, corpus.sentences[0].rows[2].end_s);
+}
+
+TEST_F(MotionTableTest, NamesThatAreNotThereAreToldWithTheirNeighbours) {
+  import();
+  const MotionDatabase database = MotionDatabase::open(path, OpenMode::read_only);
+  const auto error_of = [&](const NodeFilter& filter) {
+    return test::input_error([&] { database.list_nodes(filter); });
+  };
+  EXPECT_EQ(error_of({.emotion = "hapiness"}),
+            path.string() + ": emotion \"hapiness\" is not in this database (expected one of "
+                            "happiness, neutral). Did you mean \"happiness\"?");
+  for (const NodeFilter& filter :
+       {NodeFilter{.phoneme = "aaa"}, NodeFilter{.previous_phoneme = "aaa"},
+        NodeFilter{.next_phoneme = "aaa"}}) {
+    EXPECT_NE(error_of(filter).find("phoneme \"aaa\" is not in this database"), std::string::npos);
+    EXPECT_NE(error_of(filter).find("\"aa\""), std::string::npos);
+  }
+  EXPECT_NE(error_of({.speaker = "s3"}).find("Did you mean \"s1\" or \"s2\"?"), std::string::npos);
+  EXPECT_NE(error_of({.sentence = "b' OR 1 --"}).find("sentence \"b' OR 1 --\""),
+            std::string::npos);
+  EXPECT_TRUE(database.list_nodes({.phoneme = "pau"}).empty()) << "known, but without nodes";
 }
 
 TEST_F(MotionTableTest, InfoCountsWhatWentIn) {

@@ -5,6 +5,9 @@
 #include "synth/pipeline/synthesize.h"
 #include "tests/synth/search/random_tables.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -89,6 +92,12 @@ TEST(Synthesize, TheResultIsWhatItsSchemaSaysAndCanBeExplained) {
   EXPECT_FALSE(read["path"][3]["captured"].get<bool>()); // beside /pau/
   EXPECT_EQ(read["path"][0]["runners_up"].size(), 2u);
   const std::string table_text = explain_result(json.dump(), "r.json");
+  const std::size_t rows = result.rows.size();
+  EXPECT_TRUE(table_text.starts_with(fmt::format("{} sounding phonemes: ", rows - 1)));
+  EXPECT_NE(table_text.find(fmt::format("{} of {} joins between chosen nodes as recorded\n",
+                                        std::ranges::count(result.rows, true, &PathRow::captured),
+                                        rows - 1)),
+            std::string::npos);
   for (const PathRow& row : result.rows) {
     EXPECT_NE(table_text.find(t.key(row.node)), std::string::npos);
   }

@@ -63,8 +63,11 @@ class BadCallTest(cli.DatabaseTest):
                 self.assertSynthRefused(self.transcript.name, *words)
 
     def test_a_transcript_of_a_thousand_years(self):
-        self.transcript.write_text("#\n0.3 100 pau\n3e10 100 b\n")
-        self.assertSynthRefused("too long")
+        for end_s in ("7201", "3e10", "1e300"):
+            with self.subTest(end_s):
+                self.transcript.write_text(f"#\n0.3 100 pau\n{end_s} 100 b\n")
+                line = self.assertSynthRefused(f"{self.transcript}:3: the transcript is too long", "7200 s")
+                self.assertLess(len(line), 400)
 
     def test_a_transcript_that_is_not_there(self):
         self.transcript.unlink()
@@ -166,7 +169,13 @@ class BadCallTest(cli.DatabaseTest):
 
     def test_a_face_that_is_not_there(self):
         self.face = self.folder / "nowhere"
-        self.assertSynthRefused("nowhere")
+        self.assertSynthRefused("nowhere", "No such file", status=cli.IO)
+
+    def test_files_that_options_name_and_that_are_not_there(self):
+        nowhere = self.folder / "nowhere.json"
+        for option in ("--emotions", "--constraints", "--weights", "--phoneme-set", "--audio", "--face"):
+            with self.subTest(option):
+                self.assertSynthRefused(nowhere, "No such file", arguments=(option, nowhere), status=cli.IO)
 
     def test_sound_that_is_none(self):
         self.assertSynthRefused("noise.wav", "WAV", arguments=("--audio", self.file("noise.wav", "no sound")))
@@ -193,13 +202,40 @@ class BadCallTest(cli.DatabaseTest):
             (["import", self.folder, "--db", self.folder / "new.db", "--rate", "5"], ("rate", "10 to 1000")),
             (["import", self.folder, "--db", self.folder / "new.db", "--dimensions", "0"], ("dimensions", "at least 1")),
             (["import", self.folder, "--db", self.folder / "new.db", "--share", "2"], ("--share",)),
-            (["nodes", self.database, "--limit", "-1"], ("--limit",)),
-            (["frobnicate", self.database], ("--help",)),
-            ([], ("--help",)),
+            (["import", self.folder, "--db", self.folder / "new.db", "--share", "0"], ("--share", "above 0 and up to 1", "got 0")),
+            (["import", self.folder, "--db", self.folder / "new.db", "--share", "nan"], ("--share", "above 0 and up to 1")),
+            (["nodes", self.database, "--limit", "-1"], ("--limit", "0 (all) or more", "got -1")),
+            (["frobnicate", self.database], ('"frobnicate"', "one of import, info, nodes, synth", "--help")),
+            (["sinth", self.database], ('"sinth"', 'Did you mean "synth"?')),
+            (["nods", self.database], ('"nods"', 'Did you mean "nodes"')),
+            ([], ("verb", "one of import, info", "--help")),
         ]
         for arguments, words in cases:
             with self.subTest(" ".join(map(str, arguments))):
                 self.assertRefused(cli.USAGE, words, *arguments)
+
+    def test_an_output_that_is_named_twice(self):
+        (self.folder / "sub").mkdir()
+        (self.folder / "link").symlink_to(self.folder / "sub")
+        new = self.folder / "sub/new.csv"
+        for other in (new, f"{self.folder}/sub/./new.csv", f"{self.folder}/sub/../sub//new.csv", self.folder / "link/new.csv"):
+            with self.subTest(other):
+                self.assertRefused(cli.USAGE, [new, "twice"], "synth", "--db", self.database, self.transcript, "-o", other, new)
+        cli.run_well("synth", "--db", self.database, self.transcript, "-o", new, self.folder / "new.csv")
+
+    def test_nodes_of_names_that_are_not_there(self):
+        cases = {
+            ("--phoneme", "ahh"): ("phoneme", '"ahh"', '"ah"'),
+            ("--phoneme", "zzz"): ("phoneme", '"zzz"', "one of aa"),
+            ("--previous", "pou"): ("phoneme", '"pou"', '"pau"'),
+            ("--next", "ahh"): ("phoneme", '"ahh"', '"ah"'),
+            ("--emotion", "hapiness"): ("emotion", '"hapiness"', '"happiness"', "one of happiness, neutral"),
+            ("--speaker", "anne"): ("speaker", '"anne"', 'Did you mean "ann"?'),
+            ("--sentence", "u00"): ("sentence", '"u00"', '"u000"'),
+        }
+        for (option, name), words in cases.items():
+            with self.subTest(option, name=name):
+                self.assertRefused(cli.BAD_INPUT, [self.database, *words], "nodes", self.database, option, name)
 
     def test_a_speaker_that_is_not_there(self):
         self.assertSynthRefused('"bob"', "ann", arguments=("--speaker", "bob"))

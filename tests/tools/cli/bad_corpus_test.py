@@ -100,7 +100,7 @@ class BadCorpusTest(cli.DatabaseTest):
     def test_another_unit_than_the_layouts(self):
         frames = tiny_corpus.motion_frames(self.spoilt.rows)
         self.spoilt.motion = tiny_corpus.c3d_bytes(list(tiny_corpus.MARKERS), frames, units="cm")
-        self.assertImportRefused(C3D, "unit")
+        self.assertImportRefused(C3D, "unit", "(expected mm, got cm)")
 
     def test_a_marker_that_the_motion_lacks(self):
         names = ["chinn" if name == "chin" else name for name in tiny_corpus.MARKERS]
@@ -155,7 +155,7 @@ class BadCorpusTest(cli.DatabaseTest):
         for what, other in (("longer", end + 0.5), ("shorter", end - 0.5)):
             with self.subTest(what):
                 self.spoilt.alignment = f"#\n0.3 100 pau\n0.5 100 b\n{other:.3f} 100 pau\n"
-                self.assertImportRefused("sentences.tsv:3", LAB, C3D, what)
+                self.assertImportRefused("sentences.tsv:3", LAB, C3D, what, "--tolerance")
         self.spoilt.alignment = f"#\n0.3 100 pau\n0.5 100 b\n{end + 0.08:.3f} 100 pau\n"
         self.corpus.write()
         cli.run_well("import", self.corpus.folder, "--db", self.folder / "tolerated.db")
@@ -204,12 +204,26 @@ class BadCorpusTest(cli.DatabaseTest):
             self.assertImportRefused("corpus.json", "../layout.json")
 
     def test_files_that_are_not_there(self):
+        """By status 4, whoever names them: the call, corpus.json or the table of sentences."""
+        with self.subTest("the folder"):
+            self.assertRefused(cli.IO, ["nowhere", "corpus.json"], "import", self.folder / "nowhere", "--db", self.folder / "none.db")
+        with self.subTest("corpus.json"):
+            (self.folder / "empty").mkdir()
+            self.assertRefused(cli.IO, ["empty", '"corpus.json"'], "import", self.folder / "empty", "--db", self.folder / "none.db")
+        for member in ("layout", "sentences", "phoneme_set"):
+            with self.subTest(member):
+                described = self.corpus.description[member]
+                self.corpus.description[member] = "none.json"
+                self.assertImportRefused("corpus.json", '"none.json"', "No such file", status=cli.IO)
+                self.corpus.description[member] = described
+        with self.subTest("alignment"):
+            self.corpus.sentences[3].alignment_name = "alignment/none.lab"
+            self.corpus.sentences[3].alignment = None
+            self.assertImportRefused("sentences.tsv:5", "alignment/none.lab", status=cli.IO)
         with self.subTest("motion"):
             self.spoilt.motion_name = "motion/none.c3d"
             self.spoilt.motion = None
-            self.assertImportRefused("sentences.tsv:3", "motion/none.c3d")
-        with self.subTest("corpus"):
-            self.assertRefused(cli.BAD_INPUT, ["nowhere", "corpus.json"], "import", self.folder / "nowhere", "--db", self.folder / "none.db")
+            self.assertImportRefused("sentences.tsv:3", "motion/none.c3d", status=cli.IO)
 
     def test_json_and_tables_that_do_not_fit(self):
         def spoil(name, text):

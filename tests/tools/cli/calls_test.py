@@ -34,7 +34,7 @@ class CallsTest(cli.CliTest):
         }
 
     def test_help_of_every_verb_has_an_example_and_the_options(self):
-        listed = re.findall(r"^  (\w+) {2,}\S", cli.run_well("--help").split("Subcommands:")[1], re.MULTILINE)
+        listed = re.findall(r"^  (\w+) {2,}\S", cli.run_well("--help").split("Verbs:")[1].split("Options:")[0], re.MULTILINE)
         self.assertEqual(sorted(listed), sorted(VERBS))
         for verb in VERBS:
             with self.subTest(verb):
@@ -49,6 +49,21 @@ class CallsTest(cli.CliTest):
                         self.assertRegex(cli.run_well(words[1], "--help"), rf"(?m)^  .*{re.escape(option)}\b")
         for verb in ("import", "synth"):
             self.assertIn("--threads", cli.run_well(verb, "--help"))
+
+    def test_help_is_for_people(self):
+        """Lines that fit a terminal, no inner workings, and a meaning for each option."""
+        for verb in ((), *((verb,) for verb in VERBS)):
+            with self.subTest(" ".join(verb)):
+                text = cli.run_well(*verb, "--help")
+                self.assertRegex(text, rf"\nUsage: phonomime {' '.join(verb)}")
+                self.assertLessEqual(max(map(len, text.splitlines())), 80)
+                for inner in ("{", "}", "->", "ENUM", "FLOAT", "INT:", "TEXT", " in [", "Excludes", "REQUIRED", "Positionals"):
+                    self.assertNotIn(inner, text)
+                options = text.split("Options:\n")[1].split("\n\n")[0]
+                entries = re.findall(r"^  -\S.*?(?:  +|\n +)(\S.*)", options, re.MULTILINE)
+                self.assertEqual(len(entries), len(re.findall(r"^  -", options, re.MULTILINE)))
+                for meaning in entries:
+                    self.assertRegex(meaning, r"^[A-Z]")
 
     def test_version(self):
         self.assertRegex(cli.run_well("--version"), r"^phonomime \d+\.\d+\.\d+\n$")

@@ -11,6 +11,9 @@ import phonomime_cli as cli
 import tiny_corpus
 
 
+PAGE_SIZE = 32768
+
+
 class FullDiskTest(cli.CliTest):
     """A database of speaker ann, and a corpus of bob to add to it."""
 
@@ -41,11 +44,13 @@ class FullDiskTest(cli.CliTest):
         """Refused, with every file as it was, or done, with everything in."""
         result = cli.run("import", self.bob, "--db", database, **options)
         if result.returncode == cli.DONE:
+            self.assertEqual([path.name for path in database.parent.iterdir()], [database.name])
             self.assertIn("bob", cli.run_json("info", database)["speakers"])
             return False
         self.assertEqual(result.returncode, cli.IO, result.stderr)
         self.assertRegex(result.stderr, r"^phonomime: .*\n$")
         self.assertIn(str(database), result.stderr)
+        self.assertNotIn("no more rows", result.stderr)
         return True
 
     def refused_imports(self, starts_with, sizes, limited):
@@ -75,7 +80,7 @@ class FullDiskTest(cli.CliTest):
 
     def test_importing_into_a_new_database(self):
         whole = self.ann.stat().st_size
-        sizes = [4096, 40960, *(whole * k // 6 for k in range(1, 14))]
+        sizes = [4096, 40960, *(whole * k // 12 for k in range(1, 26)), whole - 1, whole - PAGE_SIZE, whole + PAGE_SIZE]
         for limited in (self.small_files, self.small_disk):
             with self.subTest(limited.__name__):
                 self.assertGreaterEqual(self.refused_imports(None, sizes, limited), 5)
@@ -83,7 +88,7 @@ class FullDiskTest(cli.CliTest):
     def test_importing_into_a_database_that_holds_a_corpus(self):
         have, whole = self.ann.stat().st_size, self.both.stat().st_size
         with self.subTest("small_files"):
-            sizes = [0, 4096, have // 2, *(have * k // 4 for k in range(1, 6))]
+            sizes = [0, 4096, have // 2, *(have * k // 4 for k in range(1, 6)), whole - 1, whole - PAGE_SIZE]
             self.assertGreaterEqual(self.refused_imports(self.ann, sizes, self.small_files), 3)
         with self.subTest("small_disk"):
             sizes = [-(-have // 4096) * 4096, *(have + whole * k // 6 for k in range(1, 10))]

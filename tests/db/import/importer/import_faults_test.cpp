@@ -47,9 +47,12 @@ std::string without_marker(const std::string& csv, bool all) {
 const Fault kFaults[] = {
     {"AlignmentLonger", [](const auto& f) { f.write("b.lab", f.alignment(2.2)); },
      "sentences.tsv:3: alignment \"b.lab\" is longer than its motion \"b.csv\" (expected 2 s to "
-     "within 0.1 s, got 2.2 s)"},
+     "within 0.1 s, got 2.2 s). Check that both are of the same recording, or allow for more with "
+     "--tolerance."},
     {"AlignmentShorter", [](const auto& f) { f.write("b.lab", f.alignment(1.75)); },
-     "alignment \"b.lab\" is shorter than its motion \"b.csv\""},
+     "alignment \"b.lab\" is shorter than its motion \"b.csv\" (expected 2 s to within 0.1 s, got "
+     "1.75 s). Check that both are of the same recording; end the alignment with a row of silence, "
+     "or allow for more with --tolerance."},
     {"UnknownPhoneme",
      [](const auto& f) { f.write("b.lab", "#\n0.3 100 sil\n0.5 100 axx\n2.0 100 sil\n"); },
      "\"axx\""},
