@@ -2,6 +2,7 @@
 """An import that is killed or stopped leaves the database as it was before, or as it is after."""
 import collections
 import json
+import os
 import pathlib
 import shutil
 import signal
@@ -13,10 +14,52 @@ import tiny_corpus
 
 KILLS = 25  # of imports into a new database, and as many into one that holds a corpus
 
+KILLS_OF_RECORDINGS = 6
+
 Import = collections.namedtuple("Import", "status said work_s")
 
 
-class KillTest(cli.CliTest):
+def run_import(corpus, database, number=None, after_s=0.0):
+    """Runs an import, which gets the signal once it has worked (not waited) so long. Its exit
+    status, its stderr and the time that it worked."""
+    command = [cli.PROGRAM, "import", corpus, "--db", database, "--quiet", "--threads", "1"]
+    work_s = 0.0
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True) as process:
+        while process.poll() is None:
+            try:
+                work_s = int(pathlib.Path(f"/proc/{process.pid}/schedstat").read_text().split()[0]) * 1e-9
+            except (OSError, IndexError):  # it has just ended
+                break
+            if number and work_s >= after_s:
+                process.send_signal(number)
+                break
+            time.sleep(0.001)
+        _, said = process.communicate(timeout=cli.TIME_LIMIT_S)
+    return Import(process.returncode, said, work_s)
+
+
+class KillCase(cli.CliTest):
+    def holds_all(self, database, before, after):
+        """Of two states, is it the second? Where there was no database (None), none and an empty one
+        are the same."""
+        if not before and not database.exists():
+            return False
+        info = cli.run("info", database, "--json")
+        if not before and (info.returncode != cli.DONE or not json.loads(info.stdout)["corpora"]):
+            self.assertIn(info.returncode, (cli.DONE, cli.BAD_INPUT))
+            self.assertEqual(info.stderr, "" if info.returncode == cli.DONE else (
+                f"phonomime: {database}: this file is empty: there is no corpus in it. "
+                "Fill it with `phonomime import CORPUS --db DB`.\n"))
+            return False
+        state = cli.state(database)
+        if before and state == before:
+            return False
+        self.assertEqual(state, after)
+        return True
+
+
+class KillTest(KillCase):
     @classmethod
     def setUpClass(cls):
         folder = cli.scratch_folder(cls.addClassCleanup)
@@ -26,29 +69,9 @@ class KillTest(cli.CliTest):
         cls.before, cls.only_new, cls.both = (folder / f"{name}.db" for name in ("before", "only_new", "both"))
         cli.run_well("import", cls.old, "--db", cls.before)
         shutil.copyfile(cls.before, cls.both)
-        cls.work_s = cls.import_new(cls.only_new).work_s
+        cls.work_s = run_import(cls.new, cls.only_new).work_s
         cli.run_well("import", cls.new, "--db", cls.both)
         cls.states = {path: cli.state(path) for path in (cls.before, cls.only_new, cls.both)}
-
-    @classmethod
-    def import_new(cls, database, number=None, after_s=0.0):
-        """Runs an import, which gets the signal once it has worked (not waited) so long. Its exit
-        status, its stderr and the time that it worked."""
-        command = [cli.PROGRAM, "import", cls.new, "--db", database, "--quiet", "--threads", "1"]
-        work_s = 0.0
-        with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                              stderr=subprocess.PIPE, text=True) as process:
-            while process.poll() is None:
-                try:
-                    work_s = int(pathlib.Path(f"/proc/{process.pid}/schedstat").read_text().split()[0]) * 1e-9
-                except (OSError, IndexError):  # it has just ended
-                    break
-                if number and work_s >= after_s:
-                    process.send_signal(number)
-                    break
-                time.sleep(0.001)
-            _, said = process.communicate(timeout=cli.TIME_LIMIT_S)
-        return Import(process.returncode, said, work_s)
 
     def moments(self, count):
         """From the start of an import to its end, in seconds of work."""
@@ -65,9 +88,9 @@ class KillTest(cli.CliTest):
                 database = folder / "motion.db"
                 if start_from:
                     shutil.copyfile(start_from, database)
-                killed = self.import_new(database, signal.SIGKILL, after_s)
+                killed = run_import(self.new, database, signal.SIGKILL, after_s)
                 self.assertIn(killed.status, (cli.DONE, -signal.SIGKILL), killed.said)
-                done = self.holds_all(database, start_from, after)
+                done = self.holds_all(database, self.states.get(start_from), self.states[after])
                 stopped += not done
                 if not done:
                     cli.run_well("import", self.new, "--db", database)
@@ -78,23 +101,6 @@ class KillTest(cli.CliTest):
                 self.assertEqual(cli.run_json("info", database)["nodes"], len(self.states[after][1]) + 12)
                 shutil.rmtree(folder)
         return stopped
-
-    def holds_all(self, database, start_from, after):
-        """False where it is as before; where there was none, none and an empty one are the same."""
-        if not start_from and not database.exists():
-            return False
-        info = cli.run("info", database, "--json")
-        if not start_from and (info.returncode != cli.DONE or not json.loads(info.stdout)["corpora"]):
-            self.assertIn(info.returncode, (cli.DONE, cli.BAD_INPUT))
-            self.assertEqual(info.stderr, "" if info.returncode == cli.DONE else (
-                f"phonomime: {database}: this file is empty: there is no corpus in it. "
-                "Fill it with `phonomime import CORPUS --db DB`.\n"))
-            return False
-        state = cli.state(database)
-        if start_from and state == self.states[start_from]:
-            return False
-        self.assertEqual(state, self.states[after])
-        return True
 
     def test_kill_9_on_a_new_database(self):
         self.assertGreaterEqual(self.kill_imports(None), KILLS // 2)
@@ -116,7 +122,7 @@ class KillTest(cli.CliTest):
                     if start_from:
                         shutil.copyfile(start_from, database)
                     before = cli.contents(folder)
-                    stop = self.import_new(database, number, after_s)
+                    stop = run_import(self.new, database, number, after_s)
                     self.assertIn(stop.status, (cli.DONE, cli.INTERRUPTED, -number), stop.said)
                     if stop.status == cli.DONE:
                         self.assertIn("ann", cli.run_json("info", database)["speakers"])
@@ -127,6 +133,56 @@ class KillTest(cli.CliTest):
                         self.assertEqual(stop.said, "phonomime: interrupted\n")
                     shutil.rmtree(folder)
         self.assertGreaterEqual(stopped, 4)
+
+
+@cli.needs_shared_data
+class KillRecordingsTest(KillCase):
+    """Imports of recordings, killed again and again over the same file until one is let through."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = cli.scratch_folder(cls.addClassCleanup)
+        recordings = cli.SHARED_DATA / "grid_s1"
+        cls.few, cls.most = folder / "few", folder / "most"
+        shutil.copytree(recordings, cls.few)
+        shutil.copytree(cls.few, cls.most, copy_function=os.link)
+        head, *sentences = (recordings / "sentences.tsv").read_text().splitlines()
+        for corpus, part in ((cls.few, sentences[:20]), (cls.most, sentences[20:])):
+            (corpus / "sentences.tsv").unlink()
+            (corpus / "sentences.tsv").write_text("\n".join([head, *part]) + "\n")
+        cls.start = folder / "few.db"
+        cli.run_well("import", cls.few, "--db", cls.start)
+
+    def kill_imports(self, start_from):
+        """How many of the imports were killed before they were done."""
+        whole, database = self.folder / "whole.db", self.folder / "killed/motion.db"
+        database.parent.mkdir()
+        for path in (whole, database):
+            if start_from:
+                shutil.copyfile(start_from, path)
+        before = cli.state(database) if start_from else None
+        work_s = run_import(self.most, whole).work_s
+        after = cli.state(whole)
+        stopped = 0
+        for k in range(KILLS_OF_RECORDINGS):
+            after_s = work_s * (k + 0.5) / KILLS_OF_RECORDINGS
+            with self.subTest(kill=k, after_s=round(after_s, 3)):
+                killed = run_import(self.most, database, signal.SIGKILL, after_s)
+                self.assertIn(killed.status, (cli.DONE, -signal.SIGKILL), killed.said)
+                if self.holds_all(database, before, after):
+                    break  # the last of them may have come too late
+                stopped += 1
+        else:
+            cli.run_well("import", self.most, "--db", database)
+        self.assertEqual(cli.state(database), after)
+        self.assertEqual([path.name for path in database.parent.iterdir()], ["motion.db"])
+        return stopped
+
+    def test_kill_9_on_a_new_database(self):
+        self.assertGreaterEqual(self.kill_imports(None), KILLS_OF_RECORDINGS // 2)
+
+    def test_kill_9_on_a_database_that_holds_a_corpus(self):
+        self.assertGreaterEqual(self.kill_imports(self.start), KILLS_OF_RECORDINGS // 2)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ export default async function ({ evaluate, screenshot, args }) {
     });
     return {
       duration: page.duration, fps: page.fps, rate, aperture_mm: Array.from(values_mm), looks,
+      facts: document.getElementById('facts').textContent,
       has_audio: page.hasAudio, audio_duration: page.audioDuration(),
     };
   }, Number(args[0]));

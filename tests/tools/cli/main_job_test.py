@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import unittest
 import wave
@@ -82,10 +83,18 @@ class MainJobTest(cli.RecordingsTest):
         """The paths of the outputs by kind, and the end of the transcript."""
         transcript, audio, end_s = write_speech(self.folder, name)
         outputs = {kind: self.folder / f"{name}-{face}-{fps}.{kind}" for kind in cli.KINDS}
-        cli.run_well("synth", "--db", self.database, transcript, "--audio", audio, "--fps", fps, "--face",
-                     cli.SHARED_DATA / "faces" / face,
-                     *(word for path in outputs.values() for word in ("-o", path)))
+        self.summary = cli.run_well(
+            "synth", "--db", self.database, transcript, "--audio", audio, "--fps", fps, "--face",
+            cli.SHARED_DATA / "faces" / face, *(word for path in outputs.values() for word in ("-o", path)))
         return outputs, end_s
+
+    def check_counts(self, name, outputs, measured):
+        """The summary, the explanation and the page count alike."""
+        phonemes = len(SPEECH[name].split())
+        counts = [re.search(r"(\d+) sounding phonemes.* (\d+) of (\d+) joins between chosen nodes as recorded", text).groups()
+                  for text in (self.summary, outputs["txt"].read_text(), measured["facts"])]
+        self.assertEqual(len(set(counts)), 1, counts)
+        self.assertEqual((int(counts[0][0]), int(counts[0][2])), (phonemes, phonemes - 1))
 
     def check_page(self, measured, end_s):
         self.assertAlmostEqual(measured["duration"], end_s, places=4)
@@ -109,6 +118,7 @@ class MainJobTest(cli.RecordingsTest):
                 self.assertGreater(path.stat().st_size, 1000, path)
             measured = measure(outputs["html"])
             self.check_page(measured, end_s)
+            self.check_counts(name, outputs, measured)
             for row in json.loads(outputs["json"].read_text())["path"]:
                 if row["phoneme"] in LIPS_TOGETHER and row["recorded"]["closed"]:
                     found.append((name, row["index"], smallest_aperture(

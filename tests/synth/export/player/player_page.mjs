@@ -130,6 +130,16 @@ test('the aperture is the height between the lips, and none without landmarks', 
   assertQuiet(bare);
 });
 
+test('the header counts what sounds and what joins, as the program does', async (t) => {
+  const pause = { ...phonemes[3], index: 3, phoneme: 'pau', end: 1.0, node: 's1/anger/y#3', closure: false };
+  const said = [...phonemes.slice(0, 3), pause, { ...phonemes[3], index: 4, start: 1.0 }, { ...phonemes[4], index: 5 }];
+  const opened = await openReady(t, { ...whole, phonemes: said });
+  const facts = await opened.evaluate(() => document.getElementById('facts').textContent);
+  assert.match(facts, / 3 sounding phonemes · 1 of 3 joins between chosen nodes as recorded$/);
+  const silent = await openReady(t, { ...whole, phonemes: [phonemes[0]] });
+  assert.match(await silent.evaluate(() => document.getElementById('facts').textContent), / 0 sounding phonemes · 0 of 0 joins /);
+});
+
 /** The drawn pixels at a time, read in the task that sets the time: RGBA bytes. */
 async function pixelsAt(opened, time) {
   const list = await opened.evaluate((at_s) => {
