@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "db/types/motion.h"
-#include "synth/concat/silence.h"
+#include "tools/app/synth.h"
 
 #include <span>
 #include <string>
