@@ -23,21 +23,23 @@ public:
   // #channels_per_group * 2 planes (x, y, z of the pose, then of the velocity), each of
   // group_stride() floats, padded with zeros. Only for nodes that ensure() has seen.
   const float* first(NodeIndex node) const { return records_[node]; }
-  const float* last(NodeIndex node) const { return records_[node] + end_floats_; }
+  const float* last(NodeIndex node) const { return records_[node] + 2 * planes_; }
 
   std::size_t group_stride() const { return group_stride_; }
+  std::size_t velocity_offset() const { return planes_; } // from the pose of an end, in floats
   int channels_per_group() const { return channels_per_group_; }
 
 private:
-  double reconstruct(Eigen::Index channel, const float* coefficients) const; // E11
-  void fill_end(float* record, std::int64_t edge, std::int64_t before, std::int64_t after) const;
+  void fill_end(float* record, std::int64_t edge, std::int64_t before, std::int64_t after,
+                double* room) const;
 
   const MotionTable& table_;
-  FrameMatrixD basis_; // #channels by #dimensions
   int channels_per_group_;
   std::size_t group_stride_;
-  std::size_t end_floats_; // of one end of a node
-  NodeRecords records_;    // first end, then last end
+  std::size_t planes_;   // #channels_per_group * group_stride()
+  Eigen::VectorXd mean_; // in the order of the planes
+  FrameMatrixD basis_;   // #dimensions by planes_
+  NodeRecords records_;  // first end, then last end
 };
 
 } // namespace phonomime

@@ -2,6 +2,7 @@
 #include "synth/search/join_cost.h"
 
 #include "synth/search/vector_dispatch.h"
+#include "synth/search/vector_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -11,51 +12,91 @@ namespace phonomime {
 
 namespace {
 
-constexpr std::size_t kLanes = 4;
-
-double join_lanes(const std::array<double, kLanes>& lanes) {
-  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+// Sum over groups of the Euclidean norm of b - a, group k in lane k mod the number of lanes; planes
+// of `stride` floats, one per axis.
+template <typename Lanes, std::size_t kLanes, std::size_t kAxes>
+inline auto summed_norms(const float* a, const float* b, std::size_t stride) {
+  Lanes sum = {};
+  for (std::size_t k = 0; k < stride; k += kLanes) {
+    Lanes square = {};
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      Lanes from, to;
+      load(from, a + axis * stride + k);
+      load(to, b + axis * stride + k);
+      const Lanes difference = to - from;
+      square += difference * difference;
+    }
+    take_roots(square);
+    sum += square;
+  }
+  return sum_of_lanes(sum);
 }
 
-// Sum over groups of the Euclidean norm of b - a; planes of `stride` floats, one per axis.
 PHONOMIME_DISPATCHED
 double summed_group_norms(const float* a, const float* b, std::size_t stride, int axes) {
-  std::array<double, kLanes> lanes{};
-  for (std::size_t k = 0; k < stride; k += kLanes) {
-    std::array<double, kLanes> square{};
-    for (int axis = 0; axis < axes; ++axis) {
-      const float* from = a + static_cast<std::size_t>(axis) * stride + k;
-      const float* to = b + static_cast<std::size_t>(axis) * stride + k;
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        const double difference = static_cast<double>(to[lane]) - static_cast<double>(from[lane]);
-        square[lane] += difference * difference;
-      }
-    }
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      lanes[lane] += std::sqrt(square[lane]);
-    }
-  }
-  return join_lanes(lanes);
+  return axes == 3 ? summed_norms<DoubleLanes, kDoubleLanes, 3>(a, b, stride)
+                   : summed_norms<DoubleLanes, kDoubleLanes, 1>(a, b, stride);
 }
 
+// The same in single precision.
+PHONOMIME_DISPATCHED
+float rough_group_norms(const float* a, const float* b, std::size_t stride, int axes) {
+  return axes == 3 ? summed_norms<FloatLanes, kFloatLanes, 3>(a, b, stride)
+                   : summed_norms<FloatLanes, kFloatLanes, 1>(a, b, stride);
+}
+
+// At least this many dimensions of a blended frame are kept without allocating.
+constexpr std::size_t kUsualDimensions = 64;
+
 // One frame of the blend b: (1-s) w + s q, w between two frames of the source.
-void blend_frame(const float* below, const float* above, double fraction, const float* target,
-                 double s, Eigen::Index dimensions, double* blended) {
-  for (Eigen::Index k = 0; k < dimensions; ++k) {
+inline void blend_frame(const float* below, const float* above, double fraction,
+                        const float* target, double s, std::size_t dimensions, double* blended) {
+  for (std::size_t k = 0; k < dimensions; ++k) {
     const double lower = below[k];
     const double warped = lower + fraction * (static_cast<double>(above[k]) - lower);
     blended[k] = (1.0 - s) * warped + s * static_cast<double>(target[k]);
   }
 }
 
-double second_difference_norm(const double* before, const double* at, const double* after,
-                              Eigen::Index dimensions) {
-  std::array<double, kLanes> lanes{};
-  for (Eigen::Index k = 0; k < dimensions; ++k) {
-    const double second = (before[k] + after[k]) - 2.0 * at[k];
-    lanes[static_cast<std::size_t>(k) % kLanes] += second * second;
+// |before - 2 at + after|; `padded` numbers each, zeros from #dimensions on.
+inline double second_difference_norm(const double* before, const double* at, const double* after,
+                                     std::size_t padded) {
+  DoubleLanes sum = {};
+  for (std::size_t k = 0; k < padded; k += kDoubleLanes) {
+    DoubleLanes left, middle, right;
+    load(left, before + k);
+    load(middle, at + k);
+    load(right, after + k);
+    const DoubleLanes second = (left + right) - 2.0 * middle;
+    sum += second * second;
   }
-  return std::sqrt(join_lanes(lanes));
+  return std::sqrt(sum_of_lanes(sum));
+}
+
+// Sum over the blend's inner frames of the norm of its second difference. `frames`: room for three
+// padded frames, zeros.
+PHONOMIME_DISPATCHED
+double summed_second_differences(const float* source, std::int32_t source_count,
+                                 const float* target, std::int32_t target_count,
+                                 std::size_t dimensions, std::size_t padded, double* frames) {
+  const std::int32_t last = target_count - 1;
+  double sum = 0.0;
+  for (std::int32_t m = 0; m <= last; ++m) {
+    const double s = static_cast<double>(m) / last;
+    const double u = s * (source_count - 1);
+    const std::int32_t below = std::min(static_cast<std::int32_t>(u), source_count - 1);
+    const std::int32_t above = std::min(below + 1, source_count - 1);
+    const auto frame = [&](std::int32_t i) {
+      return frames + static_cast<std::size_t>(i % 3) * padded;
+    };
+    blend_frame(source + static_cast<std::size_t>(below) * dimensions,
+                source + static_cast<std::size_t>(above) * dimensions, u - below,
+                target + static_cast<std::size_t>(m) * dimensions, s, dimensions, frame(m));
+    if (m >= 2) {
+      sum += second_difference_norm(frame(m - 2), frame(m - 1), frame(m), padded);
+    }
+  }
+  return sum;
 }
 
 } // namespace
@@ -69,8 +110,7 @@ double JoinCost::position_gap(NodeIndex from, NodeIndex to) const {
 }
 
 double JoinCost::velocity_gap(NodeIndex from, NodeIndex to) const {
-  const auto planes = static_cast<std::size_t>(poses_.channels_per_group());
-  const std::size_t velocity = planes * poses_.group_stride();
+  const std::size_t velocity = poses_.velocity_offset();
   return summed_group_norms(poses_.last(from) + velocity, poses_.first(to) + velocity,
                             poses_.group_stride(), poses_.channels_per_group());
 }
@@ -81,42 +121,40 @@ double JoinCost::direct_smoothing_cost(NodeIndex from, NodeIndex target) const {
   if (q.frame_count < 3) {
     return 0.0;
   }
-  const Eigen::Index dimensions = table_.coefficients.cols();
-  // Three frames of the blend at a time; a fixed buffer serves any usual number of dimensions.
-  constexpr Eigen::Index kUsual = 64;
-  std::array<double, 3 * kUsual> buffer;
-  std::vector<double> large;
-  double* frames = buffer.data();
-  if (dimensions > kUsual) {
-    large.resize(static_cast<std::size_t>(3 * dimensions));
-    frames = large.data();
-  }
-  const float* source_frames = table_.coefficients.row(source.first_frame).data();
-  const float* target_frames = table_.coefficients.row(q.first_frame).data();
-  const std::int32_t last = q.frame_count - 1;
-  double sum = 0.0;
-  for (std::int32_t m = 0; m <= last; ++m) {
-    const double s = static_cast<double>(m) / last;
-    const double u = s * (source.frame_count - 1);
-    const std::int32_t below = std::min(static_cast<std::int32_t>(u), source.frame_count - 1);
-    const std::int32_t above = std::min(below + 1, source.frame_count - 1);
-    double* at = frames + (m % 3) * dimensions;
-    blend_frame(source_frames + below * dimensions, source_frames + above * dimensions, u - below,
-                target_frames + m * dimensions, s, dimensions, at);
-    if (m >= 2) {
-      sum += second_difference_norm(frames + ((m - 2) % 3) * dimensions,
-                                    frames + ((m - 1) % 3) * dimensions, at, dimensions);
-    }
-  }
-  return sum * table_.rate_hz;
+  const auto dimensions = static_cast<std::size_t>(table_.coefficients.cols());
+  const std::size_t padded = (dimensions + kDoubleLanes - 1) / kDoubleLanes * kDoubleLanes;
+  std::array<double, 3 * kUsualDimensions> usual{};
+  std::vector<double> large(padded > kUsualDimensions ? 3 * padded : 0);
+  return table_.rate_hz *
+         summed_second_differences(table_.coefficients.row(source.first_frame).data(),
+                                   source.frame_count,
+                                   table_.coefficients.row(q.first_frame).data(), q.frame_count,
+                                   dimensions, padded, large.empty() ? usual.data() : large.data());
+}
+
+double JoinCost::gaps(NodeIndex from, NodeIndex to) const {
+  return weights_.alpha3 * position_gap(from, to) + velocity_gap(from, to);
+}
+
+// Every operation of rough_group_norms() is right to 2^-24 of its own result, and none cancels but
+// the first differences, which are right to the same.
+double JoinCost::gaps_floor(NodeIndex from, NodeIndex to) const {
+  constexpr double kRelativeMargin = 1e-5;
+  const auto norms = [&](std::size_t offset) {
+    return static_cast<double>(rough_group_norms(poses_.last(from) + offset,
+                                                 poses_.first(to) + offset, poses_.group_stride(),
+                                                 poses_.channels_per_group()));
+  };
+  return (weights_.alpha3 * norms(0) + norms(poses_.velocity_offset())) * (1.0 - kRelativeMargin);
+}
+
+double JoinCost::smoothing(NodeIndex from, NodeIndex to) const {
+  const NodeIndex before = table_.nodes[static_cast<std::size_t>(to)].predecessor;
+  return weights_.alpha2 == 0.0 ? 0.0 : weights_.alpha2 * direct_smoothing_cost(from, before);
 }
 
 double JoinCost::ordinary_join(NodeIndex from, NodeIndex to) const {
-  const NodeIndex before = table_.nodes[static_cast<std::size_t>(to)].predecessor;
-  const double smoothing =
-      weights_.alpha2 == 0.0 ? 0.0 : weights_.alpha2 * direct_smoothing_cost(from, before);
-  const double gaps = weights_.alpha3 * position_gap(from, to) + velocity_gap(from, to); // E7
-  return smoothing + gaps;
+  return smoothing(from, to) + gaps(from, to);
 }
 
 double JoinCost::transition(NodeIndex from, NodeIndex to) const {

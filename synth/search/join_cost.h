@@ -24,6 +24,13 @@ public:
   // predecessor that is not `from`.
   double ordinary_join(NodeIndex from, NodeIndex to) const;
 
+  // Its two parts, for a caller that can do without the second: E7 and alpha2 E6.
+  double gaps(NodeIndex from, NodeIndex to) const;
+  double smoothing(NodeIndex from, NodeIndex to) const;
+
+  // At most gaps(), by about 1e-5 of it, in a third of its time.
+  double gaps_floor(NodeIndex from, NodeIndex to) const;
+
   // E8 and E9: sums over groups of |first(to) - last(from)|.
   double position_gap(NodeIndex from, NodeIndex to) const;
   double velocity_gap(NodeIndex from, NodeIndex to) const;

@@ -2,130 +2,147 @@
 #include "synth/search/join_frontier.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace phonomime {
 
-JoinFrontier::JoinFrontier(Side side, const JoinCost& cost, const JoinBound& bound,
-                           std::span<const NodeIndex> nodes, std::span<const double> values)
-    : side_(side), cost_(cost), bound_(bound), place_(cost.table().nodes.size(), -1) {
-  candidates_.reserve(nodes.size());
+namespace {
+
+// Leaves room for the rounding of a sum that is associated in another way.
+constexpr double kBelow = 1.0 - 1e-12;
+
+NodeEnd candidate_end(JoinFrontier::Side side) {
+  return side == JoinFrontier::Side::earlier ? NodeEnd::last : NodeEnd::first;
+}
+
+} // namespace
+
+JoinFrontier::JoinFrontier(Side side, const JoinKernels& kernels, std::span<const NodeIndex> nodes,
+                           std::span<const double> values)
+    : side_(side), kernels_(kernels), value_of_(table().nodes.size(), kInfinity) {
+  const NodeEnd end = candidate_end(side);
+  const std::vector<std::int32_t>& rank = kernels_.sketch.rank(end);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    candidates_.push_back({values[i], nodes[i]});
+    if (values[i] == kInfinity) {
+      continue;
+    }
+    least_value_ = std::min(least_value_, values[i]);
+    value_of_[static_cast<std::size_t>(nodes[i])] = values[i];
+    const bool start = side == Side::later && info(nodes[i]).predecessor == kNoNode;
+    (start ? starts_ : candidates_).push_back({nodes[i], values[i]});
   }
-  std::ranges::sort(candidates_, [](const Candidate& a, const Candidate& b) {
-    return a.value != b.value ? a.value < b.value : a.node < b.node;
+  std::ranges::sort(candidates_, {}, [&](const EndTree::Entry& entry) {
+    return rank[static_cast<std::size_t>(entry.node)];
   });
-  ends_.reserve(candidates_.size() * bound_.end_floats());
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    const NodeIndex node = candidates_[i].node;
-    place_[static_cast<std::size_t>(node)] = static_cast<std::int32_t>(i);
-    const float* end = side_ == Side::earlier ? bound_.last_end(node) : bound_.first_end(node);
-    ends_.insert(ends_.end(), end, end + bound_.end_floats());
-  }
+  tree_ = EndTree(kernels_.sketch, table(), end, candidates_);
 }
 
 NodeIndex JoinFrontier::captured_partner(NodeIndex node) const {
   return side_ == Side::earlier ? info(node).predecessor : info(node).successor;
 }
 
-double JoinFrontier::transition(NodeIndex candidate, NodeIndex node) const {
-  return side_ == Side::earlier ? cost_.transition(candidate, node)
-                                : cost_.transition(node, candidate);
-}
-
-double JoinFrontier::bounded_transition(const Candidate& c, NodeIndex node, float gaps) const {
-  const NodeIndex from = side_ == Side::earlier ? c.node : node;
-  const NodeIndex to = side_ == Side::earlier ? node : c.node;
-  const NodeIndex before = info(to).predecessor;
-  if (before == from) {
-    return 0.0;
+template <typename Limit, typename Known, typename Join>
+void JoinFrontier::visit_joins(NodeIndex node, Counts& counts, const Limit& limit,
+                               const Known& known, const Join& join) const {
+  const CostWeights& weights = kernels_.cost.weights();
+  const NodeIndex partner = captured_partner(node);
+  if (partner != kNoNode && value_of_[static_cast<std::size_t>(partner)] < kInfinity) { // rule 1
+    known(EndTree::Entry{partner, value_of_[static_cast<std::size_t>(partner)]}, 0.0);
   }
-  if (before == kNoNode) {
-    return cost_.weights().alpha1 * cost_.weights().pnt;
+  const bool node_starts = side_ == Side::earlier && info(node).predecessor == kNoNode;
+  for (const EndTree::Entry& entry : node_starts ? candidates_ : starts_) {
+    known(entry, weights.alpha1 * weights.pnt); // rule 4
   }
-  const double join = static_cast<double>(gaps);
-  return info(from).viseme == info(before).viseme ? join : join + cost_.weights().pnt;
+  if (node_starts) {
+    return;
+  }
+  const NodeEnd end = side_ == Side::earlier ? NodeEnd::first : NodeEnd::last;
+  const std::int32_t viseme = join_viseme(table(), end, node);
+  counts.bounds += tree_.search(kernels_.sketch.end(end, node), viseme, weights.pnt, limit,
+                                [&](std::size_t place, std::int32_t candidate_viseme) {
+                                  const EndTree::Entry& entry = candidates_[place];
+                                  if (entry.node != partner) {
+                                    join(entry, candidate_viseme == viseme ? 0.0 : weights.pnt);
+                                  }
+                                });
 }
 
 JoinFrontier::Best JoinFrontier::best_join(NodeIndex node, double penalty, double limit,
                                            Counts& counts) const {
   Best best;
-  const auto consider = [&](const Candidate& c, double transition_cost) {
-    const double value = (c.value + transition_cost) + penalty;
-    if (value <= limit && (value < best.value || (value == best.value && c.node < best.node))) {
-      best = {value, c.node};
+  const auto total = [&](const EndTree::Entry& entry, double transition) {
+    return (entry.value + transition) + penalty;
+  };
+  const auto worth_it = [&](double value) { return value <= std::min(best.value, limit); };
+  const auto consider = [&](const EndTree::Entry& entry, double transition) {
+    const double value = total(entry, transition);
+    if (worth_it(value) && (value < best.value || entry.node < best.node)) {
+      best = {value, entry.node};
     }
   };
-  const NodeIndex partner = captured_partner(node);
-  if (partner != kNoNode && place_[static_cast<std::size_t>(partner)] >= 0) {
-    consider(candidates_[static_cast<std::size_t>(place_[static_cast<std::size_t>(partner)])], 0.0);
-  }
-  struct Bounded {
-    double value;
-    std::size_t candidate;
+  // The least value + TC whose total could round to the best one or less.
+  const auto tree_limit = [&] {
+    const double most = std::min(best.value, limit);
+    return (most - penalty) + 1e-12 * (std::abs(most) + penalty);
   };
-  const float* end = side_ == Side::earlier ? bound_.first_end(node) : bound_.last_end(node);
-  std::array<float, kBlock> gaps;
-  std::array<Bounded, kBlock> survivors;
-  for (std::size_t begin = 0; begin < candidates_.size(); begin += kBlock) {
-    if (candidates_[begin].value + penalty > std::min(best.value, limit)) {
-      break;
-    }
-    const std::size_t count = std::min(kBlock, candidates_.size() - begin);
-    bound_.bound(end,
-                 std::span(ends_).subspan(begin * bound_.end_floats(), count * bound_.end_floats()),
-                 std::span(gaps).first(count));
-    counts.bounds += static_cast<std::int64_t>(count);
-    std::size_t survivor_count = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Candidate& c = candidates_[begin + i];
-      const double value = (c.value + bounded_transition(c, node, gaps[i])) + penalty;
-      if (c.node != partner && value <= std::min(best.value, limit)) {
-        survivors[survivor_count++] = {value, begin + i};
-      }
-    }
-    std::sort(survivors.begin(), survivors.begin() + static_cast<std::ptrdiff_t>(survivor_count),
-              [](const Bounded& a, const Bounded& b) { return a.value < b.value; });
-    for (std::size_t i = 0; i < survivor_count && survivors[i].value <= best.value; ++i) {
-      const Candidate& c = candidates_[survivors[i].candidate];
-      ++counts.transitions;
-      consider(c, transition(c.node, node));
-    }
-  }
+  visit_joins(node, counts, tree_limit, consider,
+              [&](const EndTree::Entry& entry, double other_viseme) {
+                const auto [from, to] = in_time(entry.node, node);
+                if (!worth_it(total(entry, kernels_.bound.gaps(from, to) + other_viseme)) ||
+                    !worth_it(total(entry, kernels_.cost.gaps_floor(from, to) + other_viseme))) {
+                  return;
+                }
+                ++counts.transitions;
+                const double gaps = kernels_.cost.gaps(from, to);
+                if (worth_it(total(entry, gaps + other_viseme))) {
+                  const double join = kernels_.cost.smoothing(from, to) + gaps;
+                  consider(entry, join + other_viseme);
+                }
+              });
   return best;
 }
 
-double JoinFrontier::bound_join(NodeIndex node, double limit, Counts& counts) const {
-  double best = limit;
-  bool found = false;
-  const NodeIndex partner = captured_partner(node);
-  if (partner != kNoNode && place_[static_cast<std::size_t>(partner)] >= 0) {
-    const auto place = static_cast<std::size_t>(place_[static_cast<std::size_t>(partner)]);
-    if (candidates_[place].value <= best) {
-      best = candidates_[place].value;
-      found = true;
+JoinFrontier::Best JoinFrontier::bound_join(NodeIndex node, Tightness tightness, double limit,
+                                            NodeIndex hint, Counts& counts) const {
+  Best best;
+  const auto worth_it = [&](double value) { return value <= std::min(best.value, limit); };
+  const auto consider = [&](const EndTree::Entry& entry, double transition) {
+    const double value = entry.value + transition;
+    if (worth_it(value)) {
+      best = {value, entry.node};
     }
-  }
-  const float* end = side_ == Side::earlier ? bound_.first_end(node) : bound_.last_end(node);
-  std::array<float, kBlock> gaps;
-  for (std::size_t begin = 0; begin < candidates_.size() && candidates_[begin].value <= best;
-       begin += kBlock) {
-    const std::size_t count = std::min(kBlock, candidates_.size() - begin);
-    bound_.bound(end,
-                 std::span(ends_).subspan(begin * bound_.end_floats(), count * bound_.end_floats()),
-                 std::span(gaps).first(count));
-    counts.bounds += static_cast<std::int64_t>(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Candidate& c = candidates_[begin + i];
-      const double value = c.value + bounded_transition(c, node, gaps[i]);
-      if (value <= best) {
-        best = value;
-        found = true;
-      }
+  };
+  const auto consider_join = [&](const EndTree::Entry& entry, double other_viseme) {
+    const auto [from, to] = in_time(entry.node, node);
+    const double rough = kernels_.bound.gaps(from, to) + other_viseme;
+    if (tightness == Tightness::rough || !worth_it(entry.value + rough)) {
+      consider(entry, rough);
+      return;
     }
+    const double gaps = kernels_.cost.gaps_floor(from, to) + other_viseme;
+    if (worth_it(entry.value + gaps)) {
+      ++counts.transitions;
+      consider(entry, kernels_.cost.smoothing(from, to) * kBelow + gaps);
+    }
+  };
+  const NodeEnd end = side_ == Side::earlier ? NodeEnd::first : NodeEnd::last;
+  const bool try_hint = hint != kNoNode && hint != captured_partner(node) &&
+                        join_viseme(table(), end, node) >= 0 &&
+                        join_viseme(table(), candidate_end(side_), hint) >= 0;
+  if (try_hint) {
+    const bool same =
+        join_viseme(table(), end, node) == join_viseme(table(), candidate_end(side_), hint);
+    consider_join({hint, value_of_[static_cast<std::size_t>(hint)]},
+                  same ? 0.0 : kernels_.cost.weights().pnt);
   }
-  return found ? best : kInfinity;
+  visit_joins(
+      node, counts, [&] { return std::min(best.value, limit); }, consider,
+      [&](const EndTree::Entry& entry, double other_viseme) {
+        if (!try_hint || entry.node != hint) {
+          consider_join(entry, other_viseme);
+        }
+      });
+  return best;
 }
 
 } // namespace phonomime

@@ -1,21 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "synth/search/end_tree.h"
 #include "synth/search/join_bound.h"
 #include "synth/search/join_cost.h"
 
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace phonomime {
 
-// The joins between one step's candidates and single nodes of the neighbouring step, cheapest
-// first.
+// The costs of joins and what bounds them from below, from the cheapest to the exact.
+struct JoinKernels {
+  JoinKernels(const MotionTable& table, const CostWeights& weights)
+      : sketch(table, weights), bound(table, weights), cost(table, weights) {}
+
+  // Makes bound and cost ready for joins of these nodes. Not for parallel regions.
+  void ensure(std::span<const NodeIndex> nodes) {
+    bound.ensure(nodes);
+    cost.ensure(nodes);
+  }
+
+  JoinSketch sketch;
+  JoinBound bound;
+  JoinCost cost;
+};
+
+// The joins between one step's candidates and single nodes of the neighbouring step.
 //
-// A frontier holds candidates with the cost of everything on their side, sorted by that cost, and
-// the ends of their motion in one run of memory. A join's bound is never above its cost, and each
-// sum below is associated as the exact one is, so that rounding cannot turn a bound into a cut.
+// A frontier holds candidates with the cost of everything on their side. A join is looked at in
+// tiers, each of which sees only what the one before could not exclude: box and sketch (EndTree),
+// cluster norms (JoinBound), the gaps of E7, the direct smoothing cost of E6. No tier is ever above
+// the cost, and each sum below is associated as the exact one is, so that rounding cannot turn a
+// bound into a cut.
 class JoinFrontier {
 public:
   enum class Side {
@@ -23,9 +42,9 @@ public:
     later    // candidates are ahead: their first ends meet the last end of an earlier node
   };
 
-  // `nodes` ascending, with `values` (finite). Both kernels must know every node of the search.
-  JoinFrontier(Side side, const JoinCost& cost, const JoinBound& bound,
-               std::span<const NodeIndex> nodes, std::span<const double> values);
+  // `nodes` ascending, with `values`; nodes of infinite value are left out.
+  JoinFrontier(Side side, const JoinKernels& kernels, std::span<const NodeIndex> nodes,
+               std::span<const double> values);
 
   struct Best {
     double value = std::numeric_limits<double>::infinity();
@@ -38,37 +57,47 @@ public:
   };
 
   // The least (value + TC) + penalty over the candidates, for a join with `node`, ties to the
-  // smallest candidate; nothing above `limit` is found. Thread-safe.
+  // smallest candidate; nothing above `limit` is found. `kernels` must know all nodes. Thread-safe.
   Best best_join(NodeIndex node, double penalty, double limit, Counts& counts) const;
 
-  // A lower bound of the least value + TC for a join with `node`, infinity if it is above `limit`.
-  double bound_join(NodeIndex node, double limit, Counts& counts) const;
+  enum class Tightness {
+    rough, // by cluster norms: some per cent below
+    tight  // by the gaps of E7 and the direct smoothing cost: 1e-5 below
+  };
+  // A lower bound of the least value + TC for a join with `node`, with the candidate that has it;
+  // nothing above `limit` is found. `hint` is a candidate to try first, or kNoNode: a near one
+  // saves most of the work. Rough bounds do not ask for the nodes' full poses.
+  Best bound_join(NodeIndex node, Tightness tightness, double limit, NodeIndex hint,
+                  Counts& counts) const;
 
-  double least_value() const { return candidates_.empty() ? kInfinity : candidates_[0].value; }
+  double least_value() const { return least_value_; }
 
 private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  static constexpr std::size_t kBlock = 32;
 
-  struct Candidate {
-    double value = 0.0;
-    NodeIndex node = kNoNode;
-  };
+  // Calls known(candidate, TC) where rule 1 or 4 says what a join with `node` costs, then
+  // join(candidate, penalty of rule 3) for every other candidate whose value + TC may be within
+  // limit().
+  template <typename Limit, typename Known, typename Join>
+  void visit_joins(NodeIndex node, Counts& counts, const Limit& limit, const Known& known,
+                   const Join& join) const;
 
-  // Lower bound of TC for candidate `c` given the bound of its gaps.
-  double bounded_transition(const Candidate& c, NodeIndex node, float gaps) const;
-  double transition(NodeIndex candidate, NodeIndex node) const;
+  std::pair<NodeIndex, NodeIndex> in_time(NodeIndex candidate, NodeIndex node) const {
+    return side_ == Side::earlier ? std::pair(candidate, node) : std::pair(node, candidate);
+  }
   NodeIndex captured_partner(NodeIndex node) const;
+  const MotionTable& table() const { return kernels_.cost.table(); }
   const MotionNode& info(NodeIndex node) const {
-    return cost_.table().nodes[static_cast<std::size_t>(node)];
+    return table().nodes[static_cast<std::size_t>(node)];
   }
 
   Side side_;
-  const JoinCost& cost_;
-  const JoinBound& bound_;
-  std::vector<Candidate> candidates_; // by (value, node)
-  std::vector<float> ends_;           // in the order of candidates_
-  std::vector<std::int32_t> place_;   // per node of the table: into candidates_, or -1
+  const JoinKernels& kernels_;
+  double least_value_ = kInfinity;
+  std::vector<EndTree::Entry> candidates_; // in the tree's order
+  std::vector<EndTree::Entry> starts_;     // later side: candidates without a predecessor (rule 4)
+  EndTree tree_;
+  std::vector<double> value_of_; // per node of the table; infinite where it is no candidate
 };
 
 // Calls work(i, counts) for i in [0, size) over threads and adds up the counts. `work` writes only
@@ -76,10 +105,10 @@ private:
 // throw.
 template <typename Work>
 void for_each_in_parallel(std::size_t size, JoinFrontier::Counts& counts, const Work& work) {
-  constexpr std::size_t kWorthThreads = 48;
+  constexpr std::size_t kWorthThreads = 4;
   std::int64_t bounds = 0;
   std::int64_t transitions = 0;
-#pragma omp parallel for schedule(dynamic, 16) reduction(+ : bounds, transitions)                  \
+#pragma omp parallel for schedule(dynamic, 1) reduction(+ : bounds, transitions)                  \
     if (size > kWorthThreads)
   for (std::size_t i = 0; i < size; ++i) {
     JoinFrontier::Counts own;

@@ -23,7 +23,7 @@ std::vector<double> costs_to_go(const LatticeInput& input, const StepStates& sta
       ahead.push_back(next.penalty[j] + next_to_go[j]);
     }
   }
-  const JoinFrontier frontier(JoinFrontier::Side::later, input.cost, input.bound, nodes, ahead);
+  const JoinFrontier frontier(JoinFrontier::Side::later, input.kernels, nodes, ahead);
   std::vector<double> to_go(states.nodes.size());
   for_each_in_parallel(to_go.size(), counts, [&](std::size_t i, JoinFrontier::Counts& own) {
     to_go[i] = frontier.best_join(states.nodes[i], 0.0, budget - states.cost[i], own).value;

@@ -2,14 +2,11 @@
 #include "synth/search/state_lattice.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
+#include <array>
 
 namespace phonomime {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A node that may stand at a step, with a lower bound of the cost that follows it.
 struct Candidate {
@@ -39,8 +36,8 @@ std::vector<Candidate> possible_candidates(const LatticeInput& input, std::size_
     if (least_before + penalty + to_go > budget) {
       break; // ascending
     }
-    for (const NodeIndex node :
-         rest_of_step(input.table, input.steps[t], input.cost.weights(), input.nodes[t], penalty)) {
+    for (const NodeIndex node : rest_of_step(input.table, input.classes, input.steps[t],
+                                             input.kernels.cost.weights(), penalty)) {
       candidates.push_back({node, penalty, to_go});
     }
   }
@@ -52,8 +49,7 @@ void ensure_nodes(const LatticeInput& input, const std::vector<Candidate>& candi
   std::vector<NodeIndex> nodes;
   nodes.reserve(candidates.size());
   std::ranges::transform(candidates, std::back_inserter(nodes), &Candidate::node);
-  input.cost.ensure(nodes);
-  input.bound.ensure(nodes);
+  input.kernels.ensure(nodes);
 }
 
 void append(StepStates& states, const Candidate& candidate, double cost, NodeIndex predecessor) {
@@ -75,7 +71,7 @@ StepStates first_states(const std::vector<Candidate>& candidates) {
 StepStates next_states(const LatticeInput& input, const StepStates& before,
                        const std::vector<Candidate>& candidates, double budget,
                        JoinFrontier::Counts& counts) {
-  const JoinFrontier frontier(JoinFrontier::Side::earlier, input.cost, input.bound, before.nodes,
+  const JoinFrontier frontier(JoinFrontier::Side::earlier, input.kernels, before.nodes,
                               before.cost);
   std::vector<JoinFrontier::Best> best(candidates.size());
   for_each_in_parallel(candidates.size(), counts, [&](std::size_t j, JoinFrontier::Counts& own) {
@@ -89,27 +85,6 @@ StepStates next_states(const LatticeInput& input, const StepStates& before,
     }
   }
   return states;
-}
-
-// The `width` candidates of least estimated total, in order of node.
-void keep_most_promising(std::vector<Candidate>& candidates, const std::vector<double>& estimate,
-                         std::size_t width) {
-  if (candidates.size() <= width) {
-    return;
-  }
-  std::vector<std::size_t> order(candidates.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::nth_element(order, order.begin() + static_cast<std::ptrdiff_t>(width),
-                           [&](std::size_t a, std::size_t b) {
-                             return estimate[a] != estimate[b] ? estimate[a] < estimate[b] : a < b;
-                           });
-  order.resize(width);
-  std::ranges::sort(order);
-  std::vector<Candidate> kept;
-  for (const std::size_t i : order) {
-    kept.push_back(candidates[i]);
-  }
-  candidates = std::move(kept);
 }
 
 } // namespace
@@ -128,30 +103,33 @@ Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Co
   return lattice;
 }
 
-Lattice beam_lattice(const LatticeInput& input, std::size_t width, JoinFrontier::Counts& counts) {
-  Lattice lattice;
-  for (std::size_t t = 0; t < input.steps.size(); ++t) {
-    input.progress.update("search", 0, static_cast<std::int64_t>(input.steps.size()));
-    std::vector<Candidate> candidates = core_candidates(input, t);
-    std::vector<double> estimate(candidates.size());
-    if (t == 0) {
-      std::ranges::transform(candidates, estimate.begin(),
-                             [](const Candidate& c) { return c.penalty + c.to_go; });
-    } else {
-      const JoinFrontier frontier(JoinFrontier::Side::earlier, input.cost, input.bound,
-                                  lattice.back().nodes, lattice.back().cost);
-      for_each_in_parallel(candidates.size(), counts,
-                           [&](std::size_t j, JoinFrontier::Counts& own) {
-                             estimate[j] = frontier.bound_join(candidates[j].node, kInfinity, own) +
-                                           candidates[j].penalty + candidates[j].to_go;
-                           });
+double cost_of_relaxed_path(const LatticeInput& input, JoinFrontier::Counts& counts) {
+  const auto estimate = [&](std::size_t t, std::size_t i) {
+    return input.nodes[t].core_penalty[i] + input.bounds.core_to_go[t][i];
+  };
+  const auto place_of_best = [&](std::size_t t) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < input.nodes[t].core.size(); ++i) {
+      best = estimate(t, i) < estimate(t, best) ? i : best;
     }
-    keep_most_promising(candidates, estimate, width);
-    ensure_nodes(input, candidates);
-    lattice.push_back(t == 0 ? first_states(candidates)
-                             : next_states(input, lattice.back(), candidates, kInfinity, counts));
+    return best;
+  };
+  std::size_t place = place_of_best(0);
+  double cost = input.nodes[0].core_penalty[place];
+  for (std::size_t t = 0; t + 1 < input.steps.size(); ++t) {
+    const NodeIndex from = input.nodes[t].core[place];
+    const NodeIndex to = input.bounds.core_successor[t][place];
+    const std::vector<NodeIndex>& next = input.nodes[t + 1].core;
+    place = to == kNoNode
+                ? place_of_best(t + 1)
+                : static_cast<std::size_t>(std::ranges::lower_bound(next, to) - next.begin());
+    const std::array<NodeIndex, 2> join = {from, next[place]};
+    input.kernels.ensure(join);
+    ++counts.transitions;
+    cost = (cost + input.kernels.cost.transition(join[0], join[1])) +
+           input.nodes[t + 1].core_penalty[place];
   }
-  return lattice;
+  return cost;
 }
 
 NodePath best_path(const LatticeInput& input, const Lattice& lattice) {
@@ -171,10 +149,11 @@ NodePath best_path(const LatticeInput& input, const Lattice& lattice) {
   }
   for (std::size_t t = 0; t < length; ++t) {
     const MotionNode& info = input.table.nodes[static_cast<std::size_t>(path.nodes[t])];
-    path.steps[t].observation = observation_cost(input.steps[t], info, input.cost.weights());
-    path.steps[t].emotion = emotion_cost(input.steps[t], info, input.cost.weights());
+    path.steps[t].observation =
+        observation_cost(input.steps[t], info, input.kernels.cost.weights());
+    path.steps[t].emotion = emotion_cost(input.steps[t], info, input.kernels.cost.weights());
     path.steps[t].transition =
-        t == 0 ? 0.0 : input.cost.transition(path.nodes[t - 1], path.nodes[t]);
+        t == 0 ? 0.0 : input.kernels.cost.transition(path.nodes[t - 1], path.nodes[t]);
   }
   return path;
 }

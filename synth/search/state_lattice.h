@@ -23,11 +23,11 @@ using Lattice = std::vector<StepStates>;
 // What the passes of a search share.
 struct LatticeInput {
   const MotionTable& table;
+  const NodeClasses& classes;
   std::span<const SearchStep> steps;
   std::span<const StepNodes> nodes; // per step
   const RelaxedBounds& bounds;
-  JoinCost& cost;
-  JoinBound& bound;
+  JoinKernels& kernels;
   const Progress& progress;
 };
 
@@ -35,9 +35,9 @@ struct LatticeInput {
 // every path up to the budget.
 Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Counts& counts);
 
-// The forward pass over the `width` most promising states of each step: costs of real paths, an
-// upper bound of the optimum.
-Lattice beam_lattice(const LatticeInput& input, std::size_t width, JoinFrontier::Counts& counts);
+// A real path, and with it an upper bound of the optimum: from the start of least bound along the
+// joins that the relaxed pass took. Near the optimum where the bounds are tight.
+double cost_of_relaxed_path(const LatticeInput& input, JoinFrontier::Counts& counts);
 
 // The best path of a lattice: smallest cost, ties to the smallest last node. Steps' cost terms are
 // filled in.

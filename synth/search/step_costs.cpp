@@ -4,7 +4,7 @@
 #include "db/types/errors.h"
 
 #include <algorithm>
-#include <limits>
+#include <iterator>
 
 namespace phonomime {
 
@@ -33,39 +33,49 @@ bool is_allowed(const SearchStep& step, NodeIndex node) {
 
 namespace {
 
+double class_penalty(const MotionTable& table, const NodeClasses& classes, std::size_t class_index,
+                     const SearchStep& step, const CostWeights& weights) {
+  const NodeIndex any = classes.nodes(class_index).front();
+  return step_penalty(step, table.nodes[static_cast<std::size_t>(any)], weights);
+}
+
+// Adds the nodes of a class that the step does not avoid.
+void append_allowed(const SearchStep& step, std::span<const NodeIndex> nodes,
+                    std::vector<NodeIndex>& to) {
+  std::ranges::copy_if(nodes, std::back_inserter(to), [&](NodeIndex node) {
+    return !std::ranges::binary_search(step.avoided, node);
+  });
+}
+
 // All nodes of the table, by penalty.
-void split_free_step(const MotionTable& table, const SearchStep& step, const CostWeights& weights,
-                     StepNodes& nodes) {
-  double least = std::numeric_limits<double>::infinity();
-  for (NodeIndex node = 0; node < table.node_count(); ++node) {
-    if (std::ranges::binary_search(step.avoided, node)) {
-      continue;
-    }
-    const double own = step_penalty(step, table.nodes[static_cast<std::size_t>(node)], weights);
-    const auto place = std::ranges::lower_bound(nodes.rest_penalties, own);
-    if (place == nodes.rest_penalties.end() || *place != own) {
-      nodes.rest_penalties.insert(place, own);
-    }
-    if (own < least) {
-      least = own;
-      nodes.core.clear();
-    }
-    if (own == least) {
-      nodes.core.push_back(node);
+void split_free_step(const MotionTable& table, const NodeClasses& classes, const SearchStep& step,
+                     const CostWeights& weights, StepNodes& nodes) {
+  std::vector<double> penalties;
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    const bool some = std::ranges::any_of(classes.nodes(c), [&](NodeIndex node) {
+      return !std::ranges::binary_search(step.avoided, node);
+    });
+    if (some) {
+      penalties.push_back(class_penalty(table, classes, c, step, weights));
     }
   }
-  nodes.core_penalty.assign(nodes.core.size(), least);
-  if (!nodes.rest_penalties.empty()) {
-    nodes.rest_penalties.erase(nodes.rest_penalties.begin());
+  std::ranges::sort(penalties);
+  penalties.erase(std::unique(penalties.begin(), penalties.end()), penalties.end());
+  if (penalties.empty()) {
+    return;
   }
+  nodes.core = rest_of_step(table, classes, step, weights, penalties.front());
+  nodes.core_penalty.assign(nodes.core.size(), penalties.front());
+  nodes.rest_penalties.assign(penalties.begin() + 1, penalties.end());
 }
 
 } // namespace
 
-StepNodes split_step(const MotionTable& table, const SearchStep& step, const CostWeights& weights) {
+StepNodes split_step(const MotionTable& table, const NodeClasses& classes, const SearchStep& step,
+                     const CostWeights& weights) {
   StepNodes nodes;
   if (step.allowed.empty()) {
-    split_free_step(table, step, weights, nodes);
+    split_free_step(table, classes, step, weights, nodes);
   }
   for (const NodeIndex node : step.allowed) {
     if (is_allowed(step, node)) {
@@ -80,16 +90,16 @@ StepNodes split_step(const MotionTable& table, const SearchStep& step, const Cos
   return nodes;
 }
 
-std::vector<NodeIndex> rest_of_step(const MotionTable& table, const SearchStep& step,
-                                    const CostWeights& weights, const StepNodes& nodes,
+std::vector<NodeIndex> rest_of_step(const MotionTable& table, const NodeClasses& classes,
+                                    const SearchStep& step, const CostWeights& weights,
                                     double penalty) {
   std::vector<NodeIndex> members;
-  for (NodeIndex node = 0; node < table.node_count(); ++node) {
-    if (step_penalty(step, table.nodes[static_cast<std::size_t>(node)], weights) == penalty &&
-        is_allowed(step, node) && !std::ranges::binary_search(nodes.core, node)) {
-      members.push_back(node);
+  for (std::size_t c = 0; step.allowed.empty() && c < classes.size(); ++c) {
+    if (class_penalty(table, classes, c, step, weights) == penalty) {
+      append_allowed(step, classes.nodes(c), members);
     }
   }
+  std::ranges::sort(members);
   return members;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "synth/search/node_classes.h"
 #include "synth/search/search_types.h"
 
 #include <vector>
@@ -29,11 +30,12 @@ struct StepNodes {
 };
 
 // Splits the nodes of a table for one step. Throws InternalError where no node is allowed at all.
-StepNodes split_step(const MotionTable& table, const SearchStep& step, const CostWeights& weights);
+StepNodes split_step(const MotionTable& table, const NodeClasses& classes, const SearchStep& step,
+                     const CostWeights& weights);
 
-// Nodes outside the core whose penalty is `penalty`, ascending.
-std::vector<NodeIndex> rest_of_step(const MotionTable& table, const SearchStep& step,
-                                    const CostWeights& weights, const StepNodes& nodes,
+// Nodes outside the core whose penalty is `penalty`, ascending. None at a step with allowed nodes.
+std::vector<NodeIndex> rest_of_step(const MotionTable& table, const NodeClasses& classes,
+                                    const SearchStep& step, const CostWeights& weights,
                                     double penalty);
 
 } // namespace phonomime

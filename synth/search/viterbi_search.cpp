@@ -13,8 +13,6 @@ namespace phonomime {
 
 namespace {
 
-constexpr std::size_t kBeamWidth = 48;
-
 // Sums of bounds and of exact costs are associated differently; this covers their rounding.
 double with_rounding(double cost) {
   return cost * (1.0 + 1e-9) + 1e-9;
@@ -48,10 +46,11 @@ private:
 std::vector<std::vector<RunnerUp>> exact_runners_up(const LatticeInput& input, const NodePath& path,
                                                     int count, JoinFrontier::Counts& counts) {
   const double step_share = path.cost / static_cast<double>(path.nodes.size());
-  for (double slack = std::max(step_share, input.cost.weights().pnt);; slack *= 2.0) {
-    const double budget = slack > 1e6 * (path.cost + input.cost.weights().pnt) || slack == 0.0
-                              ? std::numeric_limits<double>::infinity()
-                              : with_rounding(path.cost + slack);
+  for (double slack = std::max(step_share, input.kernels.cost.weights().pnt);; slack *= 2.0) {
+    const double budget =
+        slack > 1e6 * (path.cost + input.kernels.cost.weights().pnt) || slack == 0.0
+            ? std::numeric_limits<double>::infinity()
+            : with_rounding(path.cost + slack);
     const Lattice lattice = exact_lattice(input, budget, counts);
     RunnersUp found = find_runners_up(input, lattice, path, count, budget, counts);
     if (found.complete || budget == std::numeric_limits<double>::infinity()) {
@@ -63,7 +62,7 @@ std::vector<std::vector<RunnerUp>> exact_runners_up(const LatticeInput& input, c
 } // namespace
 
 ViterbiSearch::ViterbiSearch(const MotionTable& table, const CostWeights& weights)
-    : table_(table), weights_(weights), cost_(table, weights), bound_(table, weights) {
+    : table_(table), weights_(weights), classes_(table), kernels_(table, weights) {
   check_cost_weights(weights, "cost weights");
   if (table.nodes.empty()) {
     throw InputError({.what = "the database has no motion node that a search may use",
@@ -80,14 +79,13 @@ SearchResult ViterbiSearch::solve(std::span<const SearchStep> steps, const Searc
   const ThreadCount threads(options.threads);
   std::vector<StepNodes> nodes;
   for (const SearchStep& step : steps) {
-    nodes.push_back(split_step(table_, step, weights_));
-    bound_.ensure(nodes.back().core);
+    nodes.push_back(split_step(table_, classes_, step, weights_));
+    kernels_.bound.ensure(nodes.back().core);
   }
   JoinFrontier::Counts counts;
-  const RelaxedBounds bounds = relaxed_bounds(nodes, cost_, bound_, counts);
-  const LatticeInput input{table_, steps, nodes, bounds, cost_, bound_, progress};
-  const Lattice beam = beam_lattice(input, kBeamWidth, counts);
-  const double upper_bound = std::ranges::min(beam.back().cost);
+  const RelaxedBounds bounds = relaxed_bounds(nodes, kernels_, counts);
+  const LatticeInput input{table_, classes_, steps, nodes, bounds, kernels_, progress};
+  const double upper_bound = cost_of_relaxed_path(input, counts);
   const Lattice lattice = exact_lattice(input, with_rounding(upper_bound), counts);
   result.path = best_path(input, lattice);
   result.counts.states = state_count(lattice);

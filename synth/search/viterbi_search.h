@@ -33,9 +33,9 @@ struct SearchResult {
 // The exact search for the node path of least cost (E4, Algorithm 1 with DESIGN 4).
 //
 // The cost is that of the plain O(N^2 T) recursion, to the bit, and so is the path: ties go to the
-// smallest last node, then to the smallest predecessors. Three passes: backward over lower bounds
-// (relaxed_bounds.h), forward over a few best states for an upper bound, forward over every state
-// that the two leave possible.
+// smallest last node, then to the smallest predecessors. Backward over lower bounds, which also
+// gives a path near the optimum and so an upper bound (relaxed_bounds.h), then forward over every
+// state that the two leave possible.
 //
 // Keeps what it computes of nodes, so that a second search of the same table is faster. One search
 // at a time; `table` must outlive it.
@@ -51,8 +51,8 @@ public:
 private:
   const MotionTable& table_;
   CostWeights weights_;
-  JoinCost cost_;
-  JoinBound bound_;
+  NodeClasses classes_;
+  JoinKernels kernels_;
 };
 
 } // namespace phonomime

@@ -2,7 +2,6 @@
 #include "tests/synth/search/plain_recursion.h"
 #include "tests/synth/search/random_tables.h"
 
-#include "synth/search/join_bound.h"
 #include "synth/search/join_cost.h"
 
 #include <cmath>
@@ -97,37 +96,6 @@ TEST(JoinCost, equals_the_plain_formula_to_the_bit) {
       }
     }
   }
-}
-
-TEST(JoinBound, is_never_above_the_gaps_it_bounds) {
-  double tightest = 0.0;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    Draw draw(seed);
-    test::TableShape shape;
-    shape.groups = 1 + draw.below(40);
-    shape.dimensions = 1 + draw.below(std::min(12, shape.groups));
-    shape.kind = seed % 3 == 0 ? LayoutKind::weights : LayoutKind::markers;
-    shape.duplicate_chance = 0.3;
-    const MotionTable table = test::random_table(shape, draw);
-    const CostWeights weights = test::random_weights(draw);
-    JoinCost cost(table, weights);
-    JoinBound bound(table, weights);
-    cost.ensure(all_nodes(table));
-    bound.ensure(all_nodes(table));
-    for (NodeIndex i = 0; i < table.node_count(); ++i) {
-      for (NodeIndex j = 0; j < table.node_count(); ++j) {
-        float value = -1.0f;
-        bound.bound(bound.last_end(i), {bound.first_end(j), bound.end_floats()}, {&value, 1});
-        const double exact = weights.alpha3 * cost.position_gap(i, j) + cost.velocity_gap(i, j);
-        ASSERT_GE(value, 0.0f);
-        ASSERT_LE(static_cast<double>(value), exact) << seed << ": " << i << "," << j;
-        if (exact > 1.0) {
-          tightest = std::max(tightest, static_cast<double>(value) / exact);
-        }
-      }
-    }
-  }
-  EXPECT_GT(tightest, 0.9); // a bound of zero would be admissible, and useless
 }
 
 } // namespace

@@ -37,7 +37,7 @@ void expect_terms_add_up(const NodePath& path) {
 }
 
 TEST(ViterbiSearch, equals_the_plain_recursion_on_random_databases) {
-  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+  for (std::uint64_t seed = 0; seed < 2400; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Draw draw(seed);
     test::TableShape shape;
@@ -56,9 +56,26 @@ TEST(ViterbiSearch, equals_the_plain_recursion_on_random_databases) {
   }
 }
 
+TEST(ViterbiSearch, equals_the_plain_recursion_on_larger_databases) {
+  // Several hundred nodes a phoneme: trees of bounds have several levels.
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Draw draw(seed);
+    test::TableShape shape;
+    shape.sentences = 150;
+    shape.phonemes = 2;
+    shape.visemes = 2;
+    shape.emotions = 1 + draw.below(2);
+    shape.duplicate_chance = seed % 3 == 0 ? 0.3 : 0.0;
+    const MotionTable table = test::random_table(shape, draw);
+    const std::vector<SearchStep> steps = test::random_steps(table, 6, draw, 0.02, 0.2);
+    ASSERT_NO_FATAL_FAILURE(expect_same_as_judge(table, test::random_weights(draw), steps));
+  }
+}
+
 TEST(ViterbiSearch, breaks_ties_as_the_plain_recursion_does) {
   // Every sentence is there twice, so that each optimum is there at least twice.
-  for (std::uint64_t seed = 1000; seed < 1200; ++seed) {
+  for (std::uint64_t seed = 10000; seed < 10800; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Draw draw(seed);
     test::TableShape shape;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "synth/search/join_sketch.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace phonomime {
+
+// Ends of motion nodes with the cost of all that lies behind each, in a tree of boxes, eight
+// children a box: finds those whose cost + join may be within a limit, nearest first, at a fraction
+// of a look at all of them.
+class EndTree {
+public:
+  struct Entry {
+    NodeIndex node = kNoNode;
+    double value = 0.0; // finite
+  };
+
+  EndTree() = default;
+  // Entries in the order of JoinSketch::order(which).
+  EndTree(const JoinSketch& sketch, const MotionTable& table, NodeEnd which,
+          std::span<const Entry> entries);
+
+  // Calls visit(entry index, its join viseme) for every entry whose bound is within limit(), in an
+  // order that lowers the limit soon; limit() may fall from call to call. The bound is never above
+  // value + gaps (E7) of the join with `end`, + `other_viseme` where the entry's join viseme is not
+  // `viseme`. Returns how many bounds it has computed.
+  template <typename Limit, typename Visit>
+  std::int64_t search(const float* end, std::int32_t viseme, double other_viseme,
+                      const Limit& limit, const Visit& visit) const {
+    return levels_.empty()
+               ? 0
+               : descend({end, viseme, other_viseme}, levels_.size() - 1, 0, limit, visit);
+  }
+
+private:
+  static constexpr std::size_t kFan = 8;
+  static constexpr std::size_t kFeatures = JoinSketch::kFeatures;
+  static constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+  struct Query {
+    const float* end;
+    std::int32_t viseme;
+    double other_viseme;
+  };
+  // Eight boxes (points at the lowest level, where `high` is not kept), feature by feature.
+  struct Level {
+    std::vector<float> low, high;     // per group: kFeatures by kFan
+    std::vector<float> value;         // at most the least one inside; infinite where there is none
+    std::vector<std::int32_t> viseme; // -2 where they differ inside
+  };
+
+  Level points(const MotionTable& table, NodeEnd which, std::span<const Entry> entries) const;
+  static Level boxes(const Level& below, bool below_is_points);
+  // Bounds of the eight children of a group.
+  void bound_children(const Query& query, std::size_t level, std::size_t group,
+                      std::array<double, kFan>& bounds) const;
+
+  template <typename Limit, typename Visit>
+  std::int64_t descend(const Query& query, std::size_t level, std::size_t group, const Limit& limit,
+                       const Visit& visit) const {
+    std::array<double, kFan> bounds;
+    bound_children(query, level, group, bounds);
+    std::int64_t computed = kFan;
+    for (std::size_t taken = 0; taken < kFan; ++taken) {
+      std::size_t nearest = 0;
+      for (std::size_t i = 1; i < kFan; ++i) {
+        nearest = bounds[i] < bounds[nearest] ? i : nearest;
+      }
+      if (bounds[nearest] == kNothing || bounds[nearest] > limit()) {
+        break;
+      }
+      if (level == 0) {
+        visit(group * kFan + nearest, levels_[0].viseme[group * kFan + nearest]);
+      } else {
+        computed += descend(query, level - 1, group * kFan + nearest, limit, visit);
+      }
+      bounds[nearest] = kNothing;
+    }
+    return computed;
+  }
+
+  const JoinSketch* sketch_ = nullptr;
+  std::vector<Level> levels_; // [0] points
+};
+
+} // namespace phonomime

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/search/join_sketch.h"
+
+#include "synth/search/linear_features.h"
+#include "synth/search/motion_clusters.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include <Eigen/Eigenvalues>
+
+namespace phonomime {
+
+namespace {
+
+constexpr auto kHalf = static_cast<Eigen::Index>(JoinSketch::kFeatures / 2);
+
+// Covariance of the velocities at the starts of nodes (coefficients a frame), over a fixed sample.
+Eigen::MatrixXd velocity_covariance(const MotionTable& table) {
+  constexpr std::size_t kSample = 4096;
+  const std::size_t stride = std::max<std::size_t>(1, table.nodes.size() / kSample);
+  const Eigen::Index dimensions = table.pca.dimension_count();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(dimensions, dimensions) * 1e-12;
+  for (std::size_t i = 0; i < table.nodes.size(); i += stride) {
+    const MotionNode& node = table.nodes[i];
+    if (node.frame_count > 1) {
+      const Eigen::VectorXd change =
+          (table.coefficients.row(node.first_frame + 1) - table.coefficients.row(node.first_frame))
+              .cast<double>()
+              .transpose();
+      covariance += change * change.transpose();
+    }
+  }
+  return covariance;
+}
+
+// `axes_each` principal axes of every cluster's motion, weighted as the class comment says.
+FrameMatrixD sketch_rows(const std::vector<Eigen::MatrixXd>& clusters,
+                         const Eigen::MatrixXd& covariance, Eigen::Index axes_each, double scale) {
+  FrameMatrixD rows = FrameMatrixD::Zero(kHalf, covariance.cols());
+  Eigen::Index row = 0;
+  for (const Eigen::MatrixXd& cluster : clusters) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(cluster * covariance *
+                                                              cluster.transpose());
+    Eigen::VectorXd weights =
+        axes.eigenvalues().reverse().head(axes_each).cwiseMax(0.0).cwiseSqrt();
+    if (weights.norm() == 0.0) {
+      weights[0] = 1.0; // nothing moves there: any weights will do
+    }
+    weights.normalize();
+    for (Eigen::Index a = 0; a < axes_each; ++a) {
+      rows.row(row++) = scale * weights[a] *
+                        axes.eigenvectors().col(cluster.rows() - 1 - a).transpose() * cluster;
+    }
+  }
+  return rows;
+}
+
+// Puts nodes[0, count) in an order where neighbours are alike, by halving along the widest feature.
+void order_by_halves(NodeIndex* nodes, std::size_t count, const float* features) {
+  constexpr std::size_t kLeaf = 8;
+  constexpr std::size_t kWidth = JoinSketch::kFeatures;
+  if (count <= kLeaf) {
+    return;
+  }
+  std::array<float, kWidth> low;
+  std::array<float, kWidth> high;
+  low.fill(std::numeric_limits<float>::max());
+  high.fill(std::numeric_limits<float>::lowest());
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* own = features + static_cast<std::size_t>(nodes[i]) * kWidth;
+    for (std::size_t f = 0; f < kWidth; ++f) {
+      low[f] = std::min(low[f], own[f]);
+      high[f] = std::max(high[f], own[f]);
+    }
+  }
+  std::size_t widest = 0;
+  for (std::size_t f = 1; f < kWidth; ++f) {
+    if (high[f] - low[f] > high[widest] - low[widest]) {
+      widest = f;
+    }
+  }
+  // Left parts hold whole groups of eight, and of eight times eight, where there are so many.
+  std::size_t unit = kLeaf;
+  while (unit * kLeaf < count) {
+    unit *= kLeaf;
+  }
+  const std::size_t left = std::max(unit, count / 2 / unit * unit);
+  const auto value = [&](NodeIndex node) {
+    return features[static_cast<std::size_t>(node) * kWidth + widest];
+  };
+  std::nth_element(nodes, nodes + left, nodes + count, [&](NodeIndex a, NodeIndex b) {
+    return value(a) != value(b) ? value(a) < value(b) : a < b;
+  });
+  order_by_halves(nodes, left, features);
+  order_by_halves(nodes + left, count - left, features);
+}
+
+std::vector<NodeIndex> order_ends(const MotionTable& table, NodeEnd which,
+                                  const std::vector<float>& features) {
+  using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
+  std::vector<Key> keys;
+  for (NodeIndex node = 0; node < table.node_count(); ++node) {
+    const MotionNode& info = table.nodes[static_cast<std::size_t>(node)];
+    keys.emplace_back(join_viseme(table, which, node), info.phoneme, info.emotion);
+  }
+  const auto key = [&](NodeIndex node) { return keys[static_cast<std::size_t>(node)]; };
+  std::vector<NodeIndex> order(table.nodes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, key);
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || key(order[i]) != key(order[i - 1])) {
+      begins.push_back(i);
+    }
+  }
+  const std::size_t classes = begins.size();
+  begins.push_back(order.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t i = 0; i < classes; ++i) {
+    order_by_halves(order.data() + begins[i], begins[i + 1] - begins[i], features.data());
+  }
+  return order;
+}
+
+std::vector<std::int32_t> places(const std::vector<NodeIndex>& order) {
+  std::vector<std::int32_t> rank(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    rank[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
+  }
+  return rank;
+}
+
+} // namespace
+
+std::int32_t join_viseme(const MotionTable& table, NodeEnd which, NodeIndex node) {
+  const MotionNode& info = table.nodes[static_cast<std::size_t>(node)];
+  if (which == NodeEnd::last) {
+    return info.viseme;
+  }
+  return info.predecessor == kNoNode
+             ? -1
+             : table.nodes[static_cast<std::size_t>(info.predecessor)].viseme;
+}
+
+JoinSketch::JoinSketch(const MotionTable& table, const CostWeights& weights)
+    : first_(table.nodes.size() * kFeatures), last_(table.nodes.size() * kFeatures) {
+  const Eigen::Index axes_each = std::min(2, table.layout.channels_per_group());
+  const std::vector<Eigen::MatrixXd> clusters =
+      cluster_channel_groups(table, static_cast<int>(kHalf / axes_each));
+  const Eigen::MatrixXd pose_covariance = table.pca.variance.cwiseMax(0.0).asDiagonal();
+  const LinearFeatures features(table,
+                                sketch_rows(clusters, pose_covariance, axes_each, weights.alpha3),
+                                sketch_rows(clusters, velocity_covariance(table), axes_each, 1.0),
+                                static_cast<std::size_t>(kHalf));
+  margin_ = features.rounding_margin(weights.alpha3);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < table.nodes.size(); ++i) {
+    features.fill_first(static_cast<NodeIndex>(i), first_.data() + i * kFeatures);
+    features.fill_last(static_cast<NodeIndex>(i), last_.data() + i * kFeatures);
+  }
+  first_order_ = order_ends(table, NodeEnd::first, first_);
+  last_order_ = order_ends(table, NodeEnd::last, last_);
+  first_rank_ = places(first_order_);
+  last_rank_ = places(last_order_);
+}
+
+} // namespace phonomime

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/search/linear_features.h"
+
+#include "synth/search/vector_dispatch.h"
+
+#include <algorithm>
+
+namespace phonomime {
+
+namespace {
+
+constexpr std::size_t kMostFeatures = 256;
+
+FrameMatrixD padded_transpose(const FrameMatrixD& rows, std::size_t stride) {
+  FrameMatrixD result = FrameMatrixD::Zero(rows.cols(), static_cast<Eigen::Index>(stride));
+  result.leftCols(rows.rows()) = rows.transpose();
+  return result;
+}
+
+// features[f] = float(sum over k of weights[k * stride + f] * (after[k] - before[k])).
+PHONOMIME_DISPATCHED
+void project(const double* weights, const float* before, const float* after, std::size_t dimensions,
+             std::size_t stride, float* features) {
+  double sums[kMostFeatures] = {};
+  for (std::size_t k = 0; k < dimensions; ++k) {
+    const double* row = weights + k * stride;
+    const double coefficient =
+        static_cast<double>(after[k]) - (before ? static_cast<double>(before[k]) : 0.0);
+    for (std::size_t f = 0; f < stride; ++f) {
+      sums[f] += row[f] * coefficient;
+    }
+  }
+  for (std::size_t f = 0; f < stride; ++f) {
+    features[f] = static_cast<float>(sums[f]);
+  }
+}
+
+} // namespace
+
+LinearFeatures::LinearFeatures(const MotionTable& table, const FrameMatrixD& pose_rows,
+                               const FrameMatrixD& velocity_rows, std::size_t stride)
+    : table_(table), stride_(std::min(stride, kMostFeatures)),
+      pose_(padded_transpose(pose_rows, stride_)),
+      velocity_(padded_transpose(velocity_rows, stride_) * table.rate_hz) {}
+
+void LinearFeatures::fill_first(NodeIndex node, float* features) const {
+  const MotionNode& info = table_.nodes[static_cast<std::size_t>(node)];
+  const std::int64_t end = info.first_frame + info.frame_count - 1;
+  fill_end(features, info.first_frame, info.first_frame, std::min(info.first_frame + 1, end));
+}
+
+void LinearFeatures::fill_last(NodeIndex node, float* features) const {
+  const MotionNode& info = table_.nodes[static_cast<std::size_t>(node)];
+  const std::int64_t end = info.first_frame + info.frame_count - 1;
+  fill_end(features, end, std::max(end - 1, info.first_frame), end);
+}
+
+void LinearFeatures::fill_end(float* features, std::int64_t edge, std::int64_t before,
+                              std::int64_t after) const {
+  const auto dimensions = static_cast<std::size_t>(pose_.rows());
+  const auto coefficients = [&](std::int64_t frame) {
+    return table_.coefficients.row(frame).data();
+  };
+  project(pose_.data(), nullptr, coefficients(edge), dimensions, stride_, features);
+  project(velocity_.data(), coefficients(before), coefficients(after), dimensions, stride_,
+          features + stride_);
+}
+
+double LinearFeatures::rounding_margin(double alpha3) const {
+  constexpr double kFloatUnit = 0x1p-24;
+  const double coefficient =
+      table_.coefficients.size() == 0
+          ? 0.0
+          : static_cast<double>(table_.coefficients.rowwise().norm().maxCoeff());
+  const double pose = table_.pca.mean.cwiseAbs().maxCoeff() + coefficient;
+  const double velocity = 2.0 * coefficient * table_.rate_hz;
+  const double exact = (alpha3 * pose + velocity) * table_.layout.channel_count();
+  const double features =
+      (pose_.colwise().norm().sum() + 2.0 * velocity_.colwise().norm().sum()) * coefficient;
+  return 4.0 * kFloatUnit * (exact + features);
+}
+
+} // namespace phonomime

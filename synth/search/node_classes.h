@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/motion_table.h"
+
+#include <span>
+#include <vector>
+
+namespace phonomime {
+
+// The nodes of a table by phoneme, viseme and emotion: all that OC and EMP ask of a node.
+class NodeClasses {
+public:
+  explicit NodeClasses(const MotionTable& table);
+
+  std::size_t size() const { return begins_.size() - 1; }
+
+  // Nodes of one class, ascending; at least one.
+  std::span<const NodeIndex> nodes(std::size_t class_index) const {
+    return std::span(nodes_).subspan(begins_[class_index],
+                                     begins_[class_index + 1] - begins_[class_index]);
+  }
+
+private:
+  std::vector<NodeIndex> nodes_;
+  std::vector<std::size_t> begins_;
+};
+
+} // namespace phonomime
