@@ -24,10 +24,11 @@ fail() { # STATUS MESSAGE
 
 # Runs a command with its output in LOG_FOLDER/NAME.log, and shows the end of that when it fails.
 logged() { # NAME COMMAND...
-  local log=$log_folder/$1.log status=0
+  local log=$log_folder/$1.log status=0 more=
   shift
   "$@" >"$log" 2>&1 </dev/null || status=$?
   [[ $status -eq 0 ]] && return
   tail -n 60 "$log" >&2
-  fail "$status" "failed: $* (all of its output: $log)"
+  [[ $# -le 12 ]] || more=" ..."
+  fail "$status" "failed: ${*:1:12}$more (all of its output: $log)"
 }
