@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """tools/lib/test_report.py, on reports as ctest writes them."""
 
+import os
 import pathlib
 import subprocess
 import sys
@@ -27,16 +28,19 @@ def case(name, status, output="", inside=""):
 
 
 SKIPPED = '<skipped message="SKIP_RETURN_CODE=77"/>'
+# Programs that start another without root's rights, and with them.
+WITHOUT_RIGHTS = ["setpriv", "--bounding-set=-all", "--inh-caps=-all"] if os.geteuid() == 0 else []
+WITH_RIGHTS = ["unshare", "--mount"] if os.geteuid() == 0 else ["unshare", "--user", "--map-root-user"]
 
 
 class Report(unittest.TestCase):
-    def report(self, *cases):
-        """Exit status and output of the script."""
+    def report(self, *cases, through=()):
+        """Exit status and output of the script, started through another program."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "report.xml"
             path.write_text("<testsuite>" + "".join(cases) + "</testsuite>", encoding="utf-8")
-            run = subprocess.run([sys.executable, SCRIPT, f"release={path}"], text=True, check=False,
-                                 capture_output=True)
+            run = subprocess.run([*through, sys.executable, SCRIPT, f"release={path}"], text=True,
+                                 check=False, capture_output=True)
         return run.returncode, run.stdout
 
     def test_passed(self):
@@ -64,6 +68,14 @@ class Report(unittest.TestCase):
         self.assertIn("skipped in a: Search.Real: ", output)
         self.assertEqual(output.splitlines()[-1], "1 passed, 0 failed, 1 skipped")
 
+    def test_skip_that_needs_the_right_to_mount(self):
+        skip = case("a", "run", GTEST_SKIP.format("the right to mount"))
+        status, output = self.report(skip, through=WITHOUT_RIGHTS)
+        self.assertEqual(status, 0, output)
+        if subprocess.run([*WITH_RIGHTS, "true"], capture_output=True, check=False).returncode == 0:
+            status, output = self.report(skip, through=WITH_RIGHTS)
+            self.assertEqual(status, 1, output)
+
     def test_other_skips_are_errors(self):
         for name, other in (
                 ("googletest", case("a", "run", GTEST_SKIP.format("Chromium"))),
@@ -77,7 +89,7 @@ class Report(unittest.TestCase):
             with self.subTest(name):
                 status, output = self.report(case("b", "run"), other)
                 self.assertEqual(status, 1, output)
-                self.assertIn("only a test that needs ../shared may be skipped", output)
+                self.assertIn("only a test that needs ../shared, or a right that this user has not, may be skipped", output)
 
 
 if __name__ == "__main__":

@@ -122,10 +122,10 @@ class BadDatabaseTest(cli.DatabaseTest):
         (sealed / "ann.db").write_bytes(self.made)
         self.database = sealed / "ann.db"
         cli.seal(self, sealed)
-        self.assertRefused(cli.IO, [sealed / "new.db"], "import", self.corpus, "--db", sealed / "new.db")
-        self.assertRefused(cli.IO, [self.database], *self.calls()[-1])
+        self.assertRefused(cli.IO, [sealed / "new.db"], "import", self.corpus, "--db", sealed / "new.db", as_user=True)
+        self.assertRefused(cli.IO, [self.database], *self.calls()[-1], as_user=True)
         for call in self.calls()[:-1]:  # reading is for everybody
-            cli.run_well(*call)
+            cli.run_well(*call, as_user=True)
 
 
 if __name__ == "__main__":

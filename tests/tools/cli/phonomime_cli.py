@@ -37,16 +37,26 @@ needs_shared_data = unittest.skipIf(
     SHARED_DATA is None, "skipped: needs the recordings in ../shared/data, which are not here")
 
 
-def run(*arguments, **options):
-    """The program's CompletedProcess; stdout and stderr are text, stdin is empty."""
+def _is_let(*command):
+    return subprocess.run([*command, "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0
+
+
+MAY_MOUNT = _is_let("unshare", "--mount")
+needs_mounts = unittest.skipUnless(MAY_MOUNT, "skipped: needs the right to mount")
+
+
+def run(*arguments, as_user=False, **options):
+    """The program's CompletedProcess; stdout and stderr are text, stdin is empty. With `as_user` the
+    rights of files bind it, whoever runs the test."""
+    rightless = ["setpriv", "--bounding-set=-all", "--inh-caps=-all"] if as_user and os.geteuid() == 0 else []
     return subprocess.run(
-        [PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        [*rightless, PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
         stderr=subprocess.PIPE, text=True, timeout=TIME_LIMIT_S, check=False, **options)
 
 
-def run_well(*arguments):
+def run_well(*arguments, **options):
     """Its stdout; an AssertionError where it does not succeed."""
-    result = run(*arguments)
+    result = run(*arguments, **options)
     if result.returncode != DONE:
         raise AssertionError(f"phonomime {' '.join(map(str, arguments))}: status {result.returncode}\n{result.stderr}")
     return result.stdout
@@ -72,15 +82,9 @@ def _digest(path):
 
 
 def seal(test, folder):
-    """Makes a folder read-only for the rest of a test, for root too; skips the test where it cannot."""
+    """Makes a folder read-only for the rest of a test, for calls with as_user=True."""
     os.chmod(folder, 0o500)
-    if os.geteuid() != 0:
-        test.addCleanup(os.chmod, folder, 0o700)
-        return
-    chattr = shutil.which("chattr")
-    if not chattr or subprocess.run([chattr, "+i", folder], capture_output=True, check=False).returncode != 0:
-        test.skipTest("skipped: root may write to every folder here, and chattr does not work")
-    test.addCleanup(subprocess.run, [chattr, "-i", folder], check=True)
+    test.addCleanup(os.chmod, folder, 0o700)
 
 
 def contents(folder):
@@ -178,6 +182,14 @@ class RecordingsTest(unittest.TestCase):
         cls.folder = scratch_folder(cls.addClassCleanup)
         cls.database = cls.folder / "grid_s1.db"
         run_well("import", SHARED_DATA / "grid_s1", "--db", cls.database)
+
+
+def enter_namespace_to_mount():
+    """Where this process may not mount: starts the script again as root of a user namespace of its own,
+    which may mount what is its own. Returns where it may, or where this machine has no namespaces."""
+    enter = ["unshare", "--user", "--map-root-user", "--mount"]
+    if not MAY_MOUNT and _is_let(*enter):
+        os.execvp(enter[0], [*enter, *sys.orig_argv])
 
 
 def main():
