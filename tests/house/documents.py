@@ -57,7 +57,7 @@ def help_text(phonomime, *verb):
 
 def verbs(phonomime):
     text = help_text(phonomime) or ""
-    return set(re.findall(r"^  (\w+) {2,}", text.partition("Subcommands:")[2], re.MULTILINE))
+    return set(re.findall(r"^  (\w+) {2,}", text.partition("Verbs:")[2].partition("Options:")[0], re.MULTILINE))
 
 
 def problems_of_phonomime(phonomime, words):
