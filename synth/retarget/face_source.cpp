@@ -53,7 +53,7 @@ std::filesystem::path mesh_in(const std::filesystem::path& folder) {
 
 } // namespace
 
-FaceSource read_face(const std::filesystem::path& path, const Layout& layout) {
+std::vector<std::filesystem::path> face_files(const std::filesystem::path& path) {
   std::error_code failure;
   const std::filesystem::file_status status = std::filesystem::status(path, failure);
   if (!std::filesystem::exists(status)) {
@@ -62,23 +62,32 @@ FaceSource read_face(const std::filesystem::path& path, const Layout& layout) {
                    .expected = "a folder or a mesh",
                    .got = failure.message()});
   }
+  std::vector<std::filesystem::path> files = {std::filesystem::is_directory(status) ? mesh_in(path)
+                                                                                    : path};
+  const std::filesystem::path table = files.front().parent_path() / kMarkerTable;
+  if (std::filesystem::exists(table, failure)) {
+    files.push_back(table);
+  }
+  return files;
+}
+
+FaceSource read_face(const std::filesystem::path& path, const Layout& layout) {
+  const std::vector<std::filesystem::path> files = face_files(path);
   if (layout.kind != LayoutKind::markers) {
     throw InputError({.where = path.string(),
                       .what = "a face that markers move needs a database of markers",
                       .got = "a database of weights"});
   }
-  const std::filesystem::path file = std::filesystem::is_directory(status) ? mesh_in(path) : path;
-  FaceSource face{.mesh = read_mesh(file), .markers = {}};
-  const std::filesystem::path table = file.parent_path() / kMarkerTable;
-  if (std::filesystem::exists(table, failure)) {
-    face.markers =
-        parse_marker_map(read_file(table), table.string(), layout, face.mesh.skin_vertex_count());
+  FaceSource face{.mesh = read_mesh(files.front()), .markers = {}};
+  if (files.size() > 1) {
+    face.markers = parse_marker_map(read_file(files.back()), files.back().string(), layout,
+                                    face.mesh.skin_vertex_count());
     return face;
   }
   auto named = marker_map_from_names(layout, face.mesh.skin_vertex_count());
   if (!named) {
     throw InputError(
-        {.where = file.string(),
+        {.where = files.front().string(),
          .what = "nothing says where the markers sit on this face",
          .expected = "a table " + std::string(kMarkerTable) + " beside it",
          .remedy = "Write one line `marker<TAB>vertex` for each marker, vertices counted from 0."});

@@ -6,6 +6,7 @@
 #include "synth/retarget/triangle_mesh.h"
 
 #include <filesystem>
+#include <vector>
 
 namespace phonomime {
 
@@ -20,5 +21,9 @@ struct FaceSource {
 // mesh, else by their names (marker_map_from_names). Throws InputError (what was looked for and
 // what was found) and IoError.
 FaceSource read_face(const std::filesystem::path& path, const Layout& layout);
+
+// The files that read_face reads for a path: the mesh, then its marker table where there is one.
+// Throws as read_face does where there is no mesh to read.
+std::vector<std::filesystem::path> face_files(const std::filesystem::path& path);
 
 } // namespace phonomime

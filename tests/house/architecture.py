@@ -34,6 +34,7 @@ FEW_FILES = {
     "tinygltf": (re.compile(r"^tiny_gltf\.h"), 2),
     "valijson": (re.compile(r"^valijson/"), 1),
     "libsndfile": (re.compile(r"^sndfile\.h"), 1),
+    "OpenSSL": (re.compile(r"^openssl/"), 1),
     "CLI11": (re.compile(r"^CLI/"), 1),
 }
 

@@ -6,6 +6,7 @@
 #include "synth/pipeline/synthesize.h"
 #include "tools/app/synth_inputs.h"
 #include "tools/app/synth_outputs.h"
+#include "tools/app/synth_stock.h"
 
 #include <nlohmann/json.hpp>
 
@@ -29,13 +30,20 @@ void count_joins(const SynthesisResult& result, SynthReport& report) {
 
 SynthReport run_synth(const SynthOptions& options, const Progress& progress) {
   check_synth_options(options);
-  const MotionTable table = MotionDatabase::open(options.database, OpenMode::read_only)
-                                .load_motion_table(options.speaker);
+  SynthStock stock(MotionDatabase::open(options.database, OpenMode::read_only)
+                       .load_motion_table(options.speaker));
+  SearchKeeper keeper;
+  return run_synth(options, stock, keeper, progress);
+}
+
+SynthReport run_synth(const SynthOptions& options, SynthStock& stock, SearchKeeper& keeper,
+                      const Progress& progress) {
+  const MotionTable& table = stock.table();
   SynthReport report;
-  const SynthesisInput input = read_synthesis_input(options, table, report.notes);
-  SynthOutputs outputs(options, table, report.notes);
-  ViterbiSearch search(table, input.weights);
-  SynthesisResult result = synthesize(table, search, input, progress);
+  const SynthesisInput input =
+      read_synthesis_input(options, table, stock.default_weights(), report.notes);
+  SynthOutputs outputs(options, stock, report.notes);
+  SynthesisResult result = synthesize(table, keeper.search(table, input.weights), input, progress);
   if (options.head) {
     result.output.head.assign(static_cast<std::size_t>(result.output.coefficients.rows()),
                               *options.head);

@@ -12,6 +12,9 @@
 
 namespace phonomime {
 
+class SearchKeeper;
+class SynthStock;
+
 // The main job as a person asks for it. Empty paths and names are not given.
 struct SynthOptions {
   std::filesystem::path database;
@@ -32,6 +35,7 @@ struct SynthOptions {
   int smoothing_half_window = 3; // s of E16, frames, 0 to 100
   int runners_up = 3;            // per phoneme, 0 to 100
   int threads = 0;               // 0 = as many as there are cores
+  bool make_folders = false;     // of the outputs, where they are missing
 };
 
 struct SynthReport {
@@ -49,5 +53,9 @@ struct SynthReport {
 // Opens the database, gathers plain data, calls the recipe (synth/pipeline) and writes every
 // output, all or none. Throws UsageError, InputError, IoError and Interrupted.
 SynthReport run_synth(const SynthOptions& options, const Progress& progress);
+
+// The same, with recordings that have been loaded: those of options.speaker in options.database.
+SynthReport run_synth(const SynthOptions& options, SynthStock& stock, SearchKeeper& keeper,
+                      const Progress& progress);
 
 } // namespace phonomime

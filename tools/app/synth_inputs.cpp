@@ -90,11 +90,12 @@ std::vector<EmotionModifier> read_emotions(const SynthOptions& options, const Mo
 } // namespace
 
 SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTable& table,
+                                    const CostWeights& default_weights,
                                     std::vector<std::string>& notes) {
   SynthesisInput input;
   const Alignment alignment = read_alignment(options.transcript, {.tier = options.tier});
-  const PhonemeSet set = choose_phoneme_set(options, table, alignment);
   check_length(alignment);
+  const PhonemeSet set = choose_phoneme_set(options, table, alignment);
   if (options.phoneme_set.empty()) {
     notes.push_back(
         fmt::format("read {} with phoneme set {}", options.transcript.string(), set.name()));
@@ -108,7 +109,7 @@ SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTab
     input.constraints =
         parse_constraints(read_file(options.constraints), options.constraints.string());
   }
-  input.weights = default_cost_weights(table);
+  input.weights = default_weights;
   if (!options.weights.empty()) {
     input.weights =
         parse_cost_weights(read_file(options.weights), options.weights.string(), input.weights);

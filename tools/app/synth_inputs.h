@@ -10,9 +10,11 @@
 
 namespace phonomime {
 
-// The request as the recipe takes it, read from the files that `options` names. `notes` gets a line
-// for each choice made for the user. Throws InputError and IoError.
+// The request as the recipe takes it, read from the files that `options` names; `default_weights`
+// hold where those say nothing else. `notes` gets a line for each choice made for the user. Throws
+// InputError and IoError.
 SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTable& table,
+                                    const CostWeights& default_weights,
                                     std::vector<std::string>& notes);
 
 } // namespace phonomime

@@ -10,7 +10,6 @@
 #include "synth/export/player_document.h"
 #include "synth/pipeline/closures.h"
 #include "synth/pipeline/explain.h"
-#include "synth/retarget/face_source.h"
 
 #include <algorithm>
 #include <array>
@@ -82,6 +81,16 @@ void check_outputs_differ(const std::vector<std::filesystem::path>& outputs) {
   }
 }
 
+void make_folder_of(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  if (error && path.has_parent_path()) {
+    throw IoError({.where = path.parent_path().string(),
+                   .what = "the folder cannot be made",
+                   .got = error.message()});
+  }
+}
+
 // E figure 5 colours the four emotions; black is for neutral there, grey on a dark page here.
 std::string emotion_color(const std::string& emotion, std::int32_t index) {
   if (emotion == "neutral") {
@@ -116,22 +125,11 @@ std::vector<PlayerDocument::Emotion> emotion_spans(const MotionTable& table,
   return spans;
 }
 
-std::string face_note(const MarkerFace& face, const PcaModel& pca) {
-  std::string note =
-      fmt::format("face {}: {} vertices", face.mesh().source, face.mesh().skin_vertex_count());
-  if (face.report().automatic_markers) {
-    note += ", markers placed by their numbers";
-  }
-  if (!face.report().missing_markers.empty()) {
-    note += fmt::format(", without markers {}", fmt::join(face.report().missing_markers, " "));
-  }
-  if (const std::optional<double> share = face.aperture_share(pca)) {
-    note += fmt::format(", keeps {:.0f} % of the lips' opening", 100.0 * *share);
-  }
-  return note;
-}
-
 } // namespace
+
+bool needs_face(const SynthOptions& options) {
+  return std::ranges::any_of(options.outputs, shows_face);
+}
 
 void check_synth_options(const SynthOptions& options) {
   check_range("--fps", options.fps, 1.0, 1000.0);
@@ -139,25 +137,24 @@ void check_synth_options(const SynthOptions& options) {
   check_range("--runners-up", options.runners_up, 0, 100);
   check_range("--threads", options.threads, 0, 256);
   check_outputs_differ(options.outputs);
-  const bool needs_face = std::ranges::any_of(options.outputs, shows_face);
-  if (needs_face && options.face.empty()) {
+  if (needs_face(options) && options.face.empty()) {
     throw UsageError({.what = "a .glb or .html output needs a face",
                       .remedy = "Name a mesh with --face: an .obj or .glb file, or the folder "
                                 "that holds it."});
   }
 }
 
-SynthOutputs::SynthOutputs(const SynthOptions& options, const MotionTable& table,
+SynthOutputs::SynthOutputs(const SynthOptions& options, SynthStock& stock,
                            std::vector<std::string>& notes)
-    : options_(options), table_(table) {
-  if (std::ranges::any_of(options.outputs, shows_face)) {
-    if (table.layout.kind != LayoutKind::markers) {
+    : options_(options), table_(stock.table()) {
+  if (needs_face(options)) {
+    if (table_.layout.kind != LayoutKind::markers) {
       throw InputError({.where = options.database.string(),
                         .what = "a database of blendshape weights cannot drive a mesh yet",
                         .remedy = "Write a .csv and apply it to the face's own shapes."});
     }
-    face_.emplace(read_face(options.face, table.layout), table.layout, table.reference_pose);
-    notes.push_back(face_note(*face_, table.pca));
+    face_ = &stock.face(options.face);
+    notes.push_back(face_->note);
   }
   if (!options.audio.empty()) {
     wav_ = read_audio(options.audio).bytes;
@@ -168,6 +165,9 @@ std::vector<std::filesystem::path> SynthOutputs::write(const SynthesisResult& re
                                                        const std::string& result_json) {
   OutputFiles files;
   for (const std::filesystem::path& path : options_.outputs) {
+    if (options_.make_folders) {
+      make_folder_of(path);
+    }
     switch (output_kind(path)) {
     case OutputKind::csv:
       files.stage(path, motion_text(result));
@@ -201,7 +201,7 @@ std::string SynthOutputs::motion_text(const SynthesisResult& result) const {
 
 const std::string& SynthOutputs::glb(const SynthesisResult& result) {
   if (glb_.empty()) {
-    glb_ = marker_face_glb(face_->mesh(), face_->morphs(table_.pca), result.output,
+    glb_ = marker_face_glb(face_->face.mesh(), face_->morphs, result.output,
                            {.title = options_.transcript.stem().string(),
                             .credits = {"Motion of " + table_.speaker},
                             .synthetic = table_.synthetic});
@@ -228,7 +228,7 @@ std::string SynthOutputs::html(const SynthesisResult& result) {
                                  .closure = asks_for_closure(row.phoneme.phoneme)});
   }
   document.emotions = emotion_spans(table_, result.rows);
-  for (const auto& [name, vertex] : face_->landmarks()) {
+  for (const auto& [name, vertex] : face_->face.landmarks()) {
     document.landmarks[name] = {.mesh = 0, .primitive = 0, .vertex = vertex};
   }
   document.credits = {"Motion of " + table_.speaker};

@@ -3,11 +3,10 @@
 
 #include "db/types/motion_table.h"
 #include "synth/pipeline/synthesize.h"
-#include "synth/retarget/marker_face.h"
 #include "tools/app/synth.h"
+#include "tools/app/synth_stock.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +16,15 @@ namespace phonomime {
 // needed. Throws UsageError.
 void check_synth_options(const SynthOptions& options);
 
+// Whether some output shows the face.
+bool needs_face(const SynthOptions& options);
+
 // The outputs of one synthesis. Everything that they need is read first, so that a missing face or
 // sound is known before the search.
 class SynthOutputs {
 public:
   // `notes` gets a line for each choice made for the user. Throws InputError and IoError.
-  SynthOutputs(const SynthOptions& options, const MotionTable& table,
-               std::vector<std::string>& notes);
+  SynthOutputs(const SynthOptions& options, SynthStock& stock, std::vector<std::string>& notes);
 
   // Writes all outputs or none, and returns their paths. Throws IoError.
   std::vector<std::filesystem::path> write(const SynthesisResult& result,
@@ -36,7 +37,7 @@ private:
 
   const SynthOptions& options_;
   const MotionTable& table_;
-  std::optional<MarkerFace> face_;
+  const FittedFace* face_ = nullptr; // of the stock
   std::string wav_;
   std::string glb_; // made once for all outputs that hold it
 };

@@ -25,9 +25,10 @@ struct Words {
   InfoArguments info;
   NodesArguments nodes;
   SynthArguments synth;
+  BatchOptions batch; // but its synthesis
   ExplainArguments explain;
   bool only_suspect = false, only_pruned = false, only_gaps = false;
-  std::string head, silence = "linear";
+  std::string head, silence = "linear", shard = "1/1";
   bool no_rest = false;
 };
 
@@ -187,16 +188,6 @@ void add_synth_inputs(CLI::App* verb, SynthOptions& options) {
 // All that makes motion of a transcript, for every verb that does.
 void add_synth_options(CLI::App* verb, Words& words) {
   SynthOptions& options = words.synth.options;
-  add_database(verb, options.database, true);
-  verb->add_option("transcript", options.transcript,
-                   "Phonemes with times: .lab (Festival, HTK) or .TextGrid")
-      ->required()
-      ->type_name("TRANSCRIPT");
-  verb->add_option(
-          "-o,--output", options.outputs,
-          "Outputs; the suffix says what: .csv (marker or Live Link motion), .glb (animated "
-          "mesh), .html (player), .json (the result), .txt (the explanation)")
-      ->type_name("FILE...");
   add_synth_inputs(verb, options);
   verb->add_option("--fps", options.fps, "Output frames a second, 1 to 1000")
       ->type_name("N")
@@ -229,7 +220,40 @@ void add_synth(CLI::App& app, Words& words) {
                "      --constraints hello.constraints --audio hello.wav --face head.glb \\\n"
                "      -o hello.html -o hello.glb -o hello.csv\n\n"
                "corpora_schema/ describes every file.");
+  SynthOptions& options = words.synth.options;
+  add_database(verb, options.database, true);
+  verb->add_option("transcript", options.transcript,
+                   "Phonemes with times: .lab (Festival, HTK) or .TextGrid")
+      ->required()
+      ->type_name("TRANSCRIPT");
+  verb->add_option(
+          "-o,--output", options.outputs,
+          "Outputs; the suffix says what: .csv (marker or Live Link motion), .glb (animated "
+          "mesh), .html (player), .json (the result), .txt (the explanation)")
+      ->type_name("FILE...");
   add_synth_options(verb, words);
+}
+
+void add_batch(CLI::App& app, Words& words) {
+  CLI::App* verb = app.add_subcommand("batch", "Many transcripts in, a face that says each out");
+  verb->footer(
+      "Example:\n  phonomime batch lines.tsv --db ann.db --face head.glb -o 'out/{id}.glb'\n\n"
+      "Options hold for the rows whose own cell is empty. Rows that are done and\n"
+      "unchanged are skipped. corpora_schema/manifest.md describes the manifest,\n"
+      "docs/batch.md how to spread a batch over machines.");
+  verb->add_option("manifest", words.batch.manifest,
+                   "Table of transcripts and what to make of them, separated by tabs")
+      ->required()
+      ->type_name("MANIFEST");
+  add_database(verb, words.synth.options.database, true);
+  verb->add_option("-o,--output", words.synth.options.outputs,
+                   "Outputs of every row whose cell names none; {id} stands for the row's id; the "
+                   "suffix says what, as for synth")
+      ->type_name("FILE...");
+  add_synth_options(verb, words);
+  verb->add_option("--shard", words.shard, "Only the Ith of N parts of the batch")
+      ->type_name("I/N");
+  verb->add_flag("--redo", words.batch.redo, "Rows that are done, too");
 }
 
 void add_explain(CLI::App& app, Words& words) {
@@ -286,6 +310,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   add_info(app, words);
   add_nodes(app, words);
   add_synth(app, words);
+  add_batch(app, words);
   add_explain(app, words);
   add_common(app, words.arguments.common);
   check_verb(std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0),
@@ -319,6 +344,10 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     words.arguments.verb = words.nodes;
   } else if (verb == "synth") {
     words.arguments.verb = words.synth;
+  } else if (verb == "batch") {
+    words.batch.synth = words.synth.options;
+    words.batch.shard = parse_shard(words.shard);
+    words.arguments.verb = BatchArguments{words.batch};
   } else {
     words.arguments.verb = words.explain;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "db/store/motion_database.h"
+#include "tools/app/batch.h"
 #include "tools/app/import_corpus.h"
 #include "tools/app/synth.h"
 
@@ -35,6 +36,10 @@ struct SynthArguments {
   SynthOptions options;
 };
 
+struct BatchArguments {
+  BatchOptions options;
+};
+
 struct ExplainArguments {
   std::filesystem::path result;
 };
@@ -47,7 +52,7 @@ struct PrintArguments {
 struct Arguments {
   CommonArguments common;
   std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SynthArguments,
-               ExplainArguments>
+               BatchArguments, ExplainArguments>
       verb;
 };
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/app/synth_stock.h"
+
+#include "synth/search/cost_weights.h"
+
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace phonomime {
+
+namespace {
+
+std::string face_note(const MarkerFace& face, const PcaModel& pca) {
+  std::string note =
+      fmt::format("face {}: {} vertices", face.mesh().source, face.mesh().skin_vertex_count());
+  if (face.report().automatic_markers) {
+    note += ", markers placed by their numbers";
+  }
+  if (!face.report().missing_markers.empty()) {
+    note += fmt::format(", without markers {}", fmt::join(face.report().missing_markers, " "));
+  }
+  if (const std::optional<double> share = face.aperture_share(pca)) {
+    note += fmt::format(", keeps {:.0f} % of the lips' opening", 100.0 * *share);
+  }
+  return note;
+}
+
+} // namespace
+
+SynthStock::SynthStock(MotionTable table)
+    : table_(std::move(table)), default_weights_(default_cost_weights(table_)) {}
+
+const FittedFace& SynthStock::face(const std::filesystem::path& path) {
+  const std::scoped_lock lock(mutex_);
+  const auto known = faces_.find(path);
+  if (known != faces_.end()) {
+    return known->second;
+  }
+  MarkerFace face(read_face(path, table_.layout), table_.layout, table_.reference_pose);
+  MorphTargets morphs = face.morphs(table_.pca);
+  std::string note = face_note(face, table_.pca);
+  return faces_
+      .emplace(
+          path,
+          FittedFace{.face = std::move(face), .morphs = std::move(morphs), .note = std::move(note)})
+      .first->second;
+}
+
+ViterbiSearch& SearchKeeper::search(const MotionTable& table, const CostWeights& weights) {
+  // Weights are the same where their files are.
+  std::string file = format_cost_weights(weights);
+  if (table_ != &table || weights_ != file) {
+    search_.reset(); // two at a time would need twice the memory
+    search_ = std::make_unique<ViterbiSearch>(table, weights);
+    table_ = &table;
+    weights_ = std::move(file);
+  }
+  return *search_;
+}
+
+} // namespace phonomime

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/motion_table.h"
+#include "synth/retarget/marker_face.h"
+#include "synth/search/viterbi_search.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace phonomime {
+
+// A face fitted to a speaker's markers, with all that outputs make of it.
+struct FittedFace {
+  MarkerFace face;
+  MorphTargets morphs;
+  std::string note; // how well it fits, for people
+};
+
+// What every synthesis with one speaker's recordings shares. May be used by several threads.
+class SynthStock {
+public:
+  explicit SynthStock(MotionTable table);
+
+  const MotionTable& table() const { return table_; }
+  const CostWeights& default_weights() const { return default_weights_; }
+
+  // The face that `--face PATH` names, fitted when it is first asked for, kept as long as this.
+  // Throws InputError and IoError.
+  const FittedFace& face(const std::filesystem::path& path);
+
+private:
+  MotionTable table_;
+  CostWeights default_weights_;
+  std::mutex mutex_;
+  std::map<std::filesystem::path, FittedFace> faces_;
+};
+
+// One thread's search, kept for the next synthesis while recordings and weights stay the same.
+class SearchKeeper {
+public:
+  // Valid until the next call. Throws InputError as ViterbiSearch does.
+  ViterbiSearch& search(const MotionTable& table, const CostWeights& weights);
+
+private:
+  const MotionTable* table_ = nullptr;
+  std::string weights_;
+  std::unique_ptr<ViterbiSearch> search_;
+};
+
+} // namespace phonomime
