@@ -11,6 +11,8 @@ namespace {
 // Leaves room for the rounding of a sum that is associated in another way.
 constexpr double kBelow = 1.0 - 1e-12;
 
+const std::vector<EndTree::Entry> kNone;
+
 NodeEnd candidate_end(JoinFrontier::Side side) {
   return side == JoinFrontier::Side::earlier ? NodeEnd::last : NodeEnd::first;
 }
@@ -19,7 +21,7 @@ NodeEnd candidate_end(JoinFrontier::Side side) {
 
 JoinFrontier::JoinFrontier(Side side, const JoinKernels& kernels, std::span<const NodeIndex> nodes,
                            std::span<const double> values)
-    : side_(side), kernels_(kernels), value_of_(table().nodes.size(), kInfinity) {
+    : side_(side), kernels_(kernels) {
   const NodeEnd end = candidate_end(side);
   const std::vector<std::int32_t>& rank = kernels_.sketch.rank(end);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -27,10 +29,19 @@ JoinFrontier::JoinFrontier(Side side, const JoinKernels& kernels, std::span<cons
       continue;
     }
     least_value_ = std::min(least_value_, values[i]);
-    value_of_[static_cast<std::size_t>(nodes[i])] = values[i];
-    const bool start = side == Side::later && info(nodes[i]).predecessor == kNoNode;
-    (start ? starts_ : candidates_).push_back({nodes[i], values[i]});
+    const EndTree::Entry entry{nodes[i], values[i]};
+    by_node_.push_back(entry);
+    const bool starts = side == Side::later && info(nodes[i]).predecessor == kNoNode;
+    if (side == Side::earlier || starts) {
+      starts_.push_back(entry);
+    }
+    if (!starts) {
+      candidates_.push_back(entry);
+    }
   }
+  std::ranges::sort(starts_, [](const EndTree::Entry& a, const EndTree::Entry& b) {
+    return a.value != b.value ? a.value < b.value : a.node < b.node;
+  });
   std::ranges::sort(candidates_, {}, [&](const EndTree::Entry& entry) {
     return rank[static_cast<std::size_t>(entry.node)];
   });
@@ -41,17 +52,25 @@ NodeIndex JoinFrontier::captured_partner(NodeIndex node) const {
   return side_ == Side::earlier ? info(node).predecessor : info(node).successor;
 }
 
+const EndTree::Entry* JoinFrontier::find(NodeIndex node) const {
+  const auto place = std::ranges::lower_bound(by_node_, node, {}, &EndTree::Entry::node);
+  return place != by_node_.end() && place->node == node ? &*place : nullptr;
+}
+
 template <typename Limit, typename Known, typename Join>
 void JoinFrontier::visit_joins(NodeIndex node, Counts& counts, const Limit& limit,
                                const Known& known, const Join& join) const {
   const CostWeights& weights = kernels_.cost.weights();
   const NodeIndex partner = captured_partner(node);
-  if (partner != kNoNode && value_of_[static_cast<std::size_t>(partner)] < kInfinity) { // rule 1
-    known(EndTree::Entry{partner, value_of_[static_cast<std::size_t>(partner)]}, 0.0);
+  if (const EndTree::Entry* captured = find(partner)) { // rule 1
+    known(*captured, 0.0);
   }
   const bool node_starts = side_ == Side::earlier && info(node).predecessor == kNoNode;
-  for (const EndTree::Entry& entry : node_starts ? candidates_ : starts_) {
-    known(entry, weights.alpha1 * weights.pnt); // rule 4
+  const double start_cost = weights.alpha1 * weights.pnt; // rule 4
+  for (const EndTree::Entry& entry : node_starts || side_ == Side::later ? starts_ : kNone) {
+    if (entry.value + start_cost > limit() || !known(entry, start_cost)) {
+      break;
+    }
   }
   if (node_starts) {
     return;
@@ -79,6 +98,7 @@ JoinFrontier::Best JoinFrontier::best_join(NodeIndex node, double penalty, doubl
     if (worth_it(value) && (value < best.value || entry.node < best.node)) {
       best = {value, entry.node};
     }
+    return true; // another of the same cost may have a smaller index
   };
   // The least value + TC whose total could round to the best one or less.
   const auto tree_limit = [&] {
@@ -111,6 +131,7 @@ JoinFrontier::Best JoinFrontier::bound_join(NodeIndex node, Tightness tightness,
     if (worth_it(value)) {
       best = {value, entry.node};
     }
+    return false;
   };
   const auto consider_join = [&](const EndTree::Entry& entry, double other_viseme) {
     const auto [from, to] = in_time(entry.node, node);
@@ -132,8 +153,7 @@ JoinFrontier::Best JoinFrontier::bound_join(NodeIndex node, Tightness tightness,
   if (try_hint) {
     const bool same =
         join_viseme(table(), end, node) == join_viseme(table(), candidate_end(side_), hint);
-    consider_join({hint, value_of_[static_cast<std::size_t>(hint)]},
-                  same ? 0.0 : kernels_.cost.weights().pnt);
+    consider_join(*find(hint), same ? 0.0 : kernels_.cost.weights().pnt);
   }
   visit_joins(
       node, counts, [&] { return std::min(best.value, limit); }, consider,

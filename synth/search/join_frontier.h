@@ -5,6 +5,7 @@
 #include "synth/search/join_bound.h"
 #include "synth/search/join_cost.h"
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <utility>
@@ -37,6 +38,8 @@ struct JoinKernels {
 // bound into a cut.
 class JoinFrontier {
 public:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
   enum class Side {
     earlier, // candidates are left behind: their last ends meet the first end of a later node
     later    // candidates are ahead: their first ends meet the last end of an earlier node
@@ -64,28 +67,38 @@ public:
     rough, // by cluster norms: some per cent below
     tight  // by the gaps of E7 and the direct smoothing cost: 1e-5 below
   };
-  // A lower bound of the least value + TC for a join with `node`, with the candidate that has it;
-  // nothing above `limit` is found. `hint` is a candidate to try first, or kNoNode: a near one
-  // saves most of the work. Rough bounds do not ask for the nodes' full poses.
-  Best bound_join(NodeIndex node, Tightness tightness, double limit, NodeIndex hint,
-                  Counts& counts) const;
+  // What bound_joins() is to look at.
+  struct BoundOptions {
+    std::span<const NodeIndex> nodes; // each once; much the faster where neighbours are alike
+    Tightness tightness = Tightness::rough;
+    double limit = kInfinity; // nothing above it is found
+  };
+  // For every node i a lower bound of the least value + TC for a join with it, with the candidate
+  // that has it: calls found(i, node, best) over threads. Rough bounds do not ask for the nodes'
+  // full poses.
+  template <typename Found>
+  void bound_joins(const BoundOptions& options, Counts& counts, const Found& found) const;
 
   double least_value() const { return least_value_; }
 
 private:
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-  // Calls known(candidate, TC) where rule 1 or 4 says what a join with `node` costs, then
-  // join(candidate, penalty of rule 3) for every other candidate whose value + TC may be within
-  // limit().
+  // Calls known(candidate, TC) where rule 1 or 4 says what a join with `node` costs, cheapest first
+  // until it returns false, then join(candidate, penalty of rule 3) for every other candidate whose
+  // value + TC may be within limit().
   template <typename Limit, typename Known, typename Join>
   void visit_joins(NodeIndex node, Counts& counts, const Limit& limit, const Known& known,
                    const Join& join) const;
+
+  // `hint` is a candidate to try first, or kNoNode.
+  Best bound_join(NodeIndex node, Tightness tightness, double limit, NodeIndex hint,
+                  Counts& counts) const;
 
   std::pair<NodeIndex, NodeIndex> in_time(NodeIndex candidate, NodeIndex node) const {
     return side_ == Side::earlier ? std::pair(candidate, node) : std::pair(node, candidate);
   }
   NodeIndex captured_partner(NodeIndex node) const;
+  // The candidate that is this node, or null.
+  const EndTree::Entry* find(NodeIndex node) const;
   const MotionTable& table() const { return kernels_.cost.table(); }
   const MotionNode& info(NodeIndex node) const {
     return table().nodes[static_cast<std::size_t>(node)];
@@ -95,21 +108,23 @@ private:
   const JoinKernels& kernels_;
   double least_value_ = kInfinity;
   std::vector<EndTree::Entry> candidates_; // in the tree's order
-  std::vector<EndTree::Entry> starts_;     // later side: candidates without a predecessor (rule 4)
+  // Those whose joins rule 4 may price, by (value, node): all of them on the earlier side, those
+  // without a predecessor on the later one.
+  std::vector<EndTree::Entry> starts_;
   EndTree tree_;
-  std::vector<double> value_of_; // per node of the table; infinite where it is no candidate
+  std::vector<EndTree::Entry> by_node_; // all candidates
 };
 
-// Calls work(i, counts) for i in [0, size) over threads and adds up the counts. `work` writes only
-// what belongs to its i, so that the result does not depend on the number of threads; it must not
-// throw.
+// Calls work(i, counts) for i in [0, size) over threads, `chunk` at a time, and adds up the counts.
+// `work` writes only what belongs to its i, so that the result does not depend on the number of
+// threads; it must not throw.
 template <typename Work>
-void for_each_in_parallel(std::size_t size, JoinFrontier::Counts& counts, const Work& work) {
-  constexpr std::size_t kWorthThreads = 4;
+void for_each_in_parallel(std::size_t size, JoinFrontier::Counts& counts, const Work& work,
+                          int chunk = 16) {
   std::int64_t bounds = 0;
   std::int64_t transitions = 0;
-#pragma omp parallel for schedule(dynamic, 1) reduction(+ : bounds, transitions)                  \
-    if (size > kWorthThreads)
+#pragma omp parallel for schedule(dynamic, chunk) reduction(+ : bounds, transitions)               \
+    if (size > static_cast<std::size_t>(3 * chunk))
   for (std::size_t i = 0; i < size; ++i) {
     JoinFrontier::Counts own;
     work(i, own);
@@ -118,6 +133,26 @@ void for_each_in_parallel(std::size_t size, JoinFrontier::Counts& counts, const 
   }
   counts.bounds += bounds;
   counts.transitions += transitions;
+}
+
+template <typename Found>
+void JoinFrontier::bound_joins(const BoundOptions& options, Counts& counts,
+                               const Found& found) const {
+  // Neighbours have much the same best join, which is tried first.
+  constexpr std::size_t kChunk = 16;
+  const std::size_t size = options.nodes.size();
+  for_each_in_parallel((size + kChunk - 1) / kChunk, counts,
+                       [&](std::size_t chunk, Counts& own) {
+                         NodeIndex hint = kNoNode;
+                         for (std::size_t i = chunk * kChunk;
+                              i < std::min(size, (chunk + 1) * kChunk); ++i) {
+                           const Best best = bound_join(options.nodes[i], options.tightness,
+                                                        options.limit, hint, own);
+                           found(i, options.nodes[i], best);
+                           hint = best.node;
+                         }
+                       },
+                       1);
 }
 
 } // namespace phonomime

@@ -13,6 +13,7 @@ class NodeClasses {
 public:
   explicit NodeClasses(const MotionTable& table);
 
+  std::int64_t node_count() const { return static_cast<std::int64_t>(nodes_.size()); }
   std::size_t size() const { return begins_.size() - 1; }
 
   // Nodes of one class, ascending; at least one.
@@ -21,9 +22,14 @@ public:
                                      begins_[class_index + 1] - begins_[class_index]);
   }
 
+  std::size_t class_of(NodeIndex node) const {
+    return static_cast<std::size_t>(class_of_[static_cast<std::size_t>(node)]);
+  }
+
 private:
   std::vector<NodeIndex> nodes_;
   std::vector<std::size_t> begins_;
+  std::vector<std::int32_t> class_of_; // per node
 };
 
 } // namespace phonomime

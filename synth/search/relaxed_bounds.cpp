@@ -2,79 +2,98 @@
 #include "synth/search/relaxed_bounds.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <iterator>
 #include <numeric>
 
 namespace phonomime {
 
 namespace {
 
-// Where one side of a join has more nodes than this (inner pauses), full poses for all of them
-// would cost more than they save.
+// Where more nodes than this are active (inner pauses), full poses for all of them would cost more
+// than they save.
 constexpr std::size_t kManyNodes = 4096;
-
-// Places in `nodes`, those whose last ends are alike near each other.
-std::vector<std::size_t> order_by_ends(const JoinSketch& sketch,
-                                       const std::vector<NodeIndex>& nodes) {
-  const std::vector<std::int32_t>& rank = sketch.rank(NodeEnd::last);
-  std::vector<std::size_t> order(nodes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {},
-                    [&](std::size_t i) { return rank[static_cast<std::size_t>(nodes[i])]; });
-  return order;
-}
 
 } // namespace
 
-RelaxedBounds relaxed_bounds(std::span<const StepNodes> nodes, JoinKernels& kernels,
-                             JoinFrontier::Counts& counts) {
-  const std::size_t last = nodes.size() - 1;
-  RelaxedBounds bounds;
-  bounds.core_to_go.resize(nodes.size());
-  bounds.core_successor.resize(nodes.size());
-  bounds.rest_to_go.assign(nodes.size(), 0.0);
-  bounds.core_to_go[last].assign(nodes[last].core.size(), 0.0);
-  for (std::size_t t = last; t-- > 0;) {
-    const StepNodes& next = nodes[t + 1];
-    std::vector<double> ahead(next.core.size());
-    for (std::size_t j = 0; j < ahead.size(); ++j) {
-      ahead[j] = next.core_penalty[j] + bounds.core_to_go[t + 1][j];
-    }
-    const std::vector<NodeIndex>& core = nodes[t].core;
-    const auto tightness = std::max(core.size(), next.core.size()) > kManyNodes
-                               ? JoinFrontier::Tightness::rough
-                               : JoinFrontier::Tightness::tight;
-    if (tightness == JoinFrontier::Tightness::tight) {
-      kernels.cost.ensure(next.core);
-      kernels.cost.ensure(core);
-    }
-    const JoinFrontier frontier(JoinFrontier::Side::later, kernels, next.core, ahead);
-    const double through_rest = next.rest_penalties.empty()
-                                    ? std::numeric_limits<double>::infinity()
-                                    : next.rest_penalties.front() + bounds.rest_to_go[t + 1];
-    bounds.rest_to_go[t] = std::min(frontier.least_value(), through_rest);
-    std::vector<double>& to_go = bounds.core_to_go[t];
-    to_go.resize(core.size());
-    std::vector<NodeIndex>& successor = bounds.core_successor[t];
-    successor.resize(core.size());
-    const std::vector<std::size_t> order = order_by_ends(kernels.sketch, core);
-    // Neighbours have much the same best join, which is tried first.
-    constexpr std::size_t kChunk = 16;
-    for_each_in_parallel((core.size() + kChunk - 1) / kChunk, counts,
-                         [&](std::size_t chunk, JoinFrontier::Counts& own) {
-                           NodeIndex hint = kNoNode;
-                           for (std::size_t k = chunk * kChunk;
-                                k < std::min(core.size(), (chunk + 1) * kChunk); ++k) {
-                             const std::size_t i = order[k];
-                             const JoinFrontier::Best best =
-                                 frontier.bound_join(core[i], tightness, through_rest, hint, own);
-                             to_go[i] = std::min(through_rest, best.value);
-                             successor[i] = best.node;
-                             hint = best.node;
-                           }
-                         });
-  }
+double StepBounds::operator[](NodeIndex node) const {
+  const auto place = std::ranges::lower_bound(active, node);
+  return place != active.end() && *place == node
+             ? bound[static_cast<std::size_t>(place - active.begin())]
+             : inactive_bound;
+}
+
+StepBounds RelaxedRecursion::choose_active(const StepPenalties& penalties) const {
+  constexpr double kNear = 2.0; // PNT
+  StepBounds bounds;
+  bounds.active_penalty = penalties.least() + kNear * kernels_.cost.weights().pnt;
+  bounds.active = penalties.nodes_up_to(bounds.active_penalty);
+  bounds.bound.assign(bounds.active.size(), 0.0);
+  bounds.partner.assign(bounds.active.size(), kNoNode);
   return bounds;
+}
+
+JoinFrontier RelaxedRecursion::frontier(const StepBounds& neighbour,
+                                        const StepPenalties& penalties) const {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < neighbour.active.size(); ++i) {
+    values.push_back(penalties[neighbour.active[i]] + neighbour.bound[i]);
+  }
+  return {side_, kernels_, neighbour.active, values};
+}
+
+StepBounds RelaxedRecursion::border(const StepPenalties& penalties) const {
+  return choose_active(penalties);
+}
+
+StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBounds& neighbour,
+                                  const StepPenalties& neighbour_penalties,
+                                  JoinFrontier::Counts& counts) const {
+  StepBounds bounds = choose_active(penalties);
+  const bool many = std::max(bounds.active.size(), neighbour.active.size()) > kManyNodes;
+  kernels_.bound.ensure(bounds.active);
+  kernels_.bound.ensure(neighbour.active);
+  if (!many) {
+    kernels_.cost.ensure(bounds.active);
+    kernels_.cost.ensure(neighbour.active);
+  }
+  const JoinFrontier ahead = frontier(neighbour, neighbour_penalties);
+  const double least_inactive =
+      neighbour_penalties.least_beyond(neighbour.active_penalty) + neighbour.inactive_bound;
+  bounds.inactive_bound = std::min(least_inactive, ahead.least_value());
+
+  // Places in `active`, those whose ends are alike near each other.
+  const NodeEnd end = side_ == JoinFrontier::Side::later ? NodeEnd::last : NodeEnd::first;
+  const std::vector<std::int32_t>& rank = kernels_.sketch.rank(end);
+  std::vector<std::size_t> order(bounds.active.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t place) {
+    return rank[static_cast<std::size_t>(bounds.active[place])];
+  });
+  std::vector<NodeIndex> nodes;
+  std::ranges::transform(order, std::back_inserter(nodes),
+                         [&](std::size_t place) { return bounds.active[place]; });
+  const auto tightness = many ? JoinFrontier::Tightness::rough : JoinFrontier::Tightness::tight;
+  ahead.bound_joins({.nodes = nodes, .tightness = tightness, .limit = least_inactive}, counts,
+                    [&](std::size_t i, NodeIndex, const JoinFrontier::Best& best) {
+                      bounds.bound[order[i]] = std::min(least_inactive, best.value);
+                      bounds.partner[order[i]] = best.node;
+                    });
+  return bounds;
+}
+
+NodeIndex RelaxedRecursion::best_partner(NodeIndex node, const StepBounds& neighbour,
+                                         const StepPenalties& neighbour_penalties,
+                                         JoinFrontier::Counts& counts) const {
+  const std::array<NodeIndex, 1> nodes = {node};
+  kernels_.bound.ensure(nodes);
+  kernels_.bound.ensure(neighbour.active);
+  NodeIndex partner = kNoNode;
+  frontier(neighbour, neighbour_penalties)
+      .bound_joins(
+          {.nodes = nodes}, counts,
+          [&](std::size_t, NodeIndex, const JoinFrontier::Best& best) { partner = best.node; });
+  return partner;
 }
 
 } // namespace phonomime

@@ -9,16 +9,48 @@
 
 namespace phonomime {
 
-// Lower bounds of the cost of everything after a step, by one backward pass in which joins cost
-// their bound, and joins with nodes outside the core cost nothing but the penalty of those nodes.
-struct RelaxedBounds {
-  std::vector<std::vector<double>> core_to_go;        // per step, per node of its core
-  std::vector<std::vector<NodeIndex>> core_successor; // whose join it is; kNoNode for one outside
-  std::vector<double> rest_to_go;                     // per step: for any node outside the core
+// Lower bounds, for every node of the table at one step, of the cost of everything on one side of
+// it: all steps after it (side later), or all before (side earlier), with the join that leads
+// there, without the node's own penalty.
+struct StepBounds {
+  std::vector<NodeIndex> active;  // ascending: nodes that were looked at one by one
+  std::vector<double> bound;      // of each active one
+  std::vector<NodeIndex> partner; // of each: whose join it is; kNoNode where none is known
+  double active_penalty = 0.0;    // the most that an active node has; any other has more
+  double inactive_bound = 0.0;    // of every other node
+
+  double operator[](NodeIndex node) const;
 };
 
-// One entry of `nodes` per step, at least one.
-RelaxedBounds relaxed_bounds(std::span<const StepNodes> nodes, JoinKernels& kernels,
-                             JoinFrontier::Counts& counts);
+// One step of the relaxed recursion: Algorithm 1 with bounds in the place of joins.
+//
+// With v(y) = penalty + bound of node y at the neighbouring step, any node x has at least the bound
+// min(v). The active nodes, those whose penalty is within 2 PNT of the step's least, get better:
+// the least bound over joins with the active ones of the neighbouring step, tight where they are
+// few enough, or the least v of an inactive one where that is less.
+class RelaxedRecursion {
+public:
+  RelaxedRecursion(JoinKernels& kernels, JoinFrontier::Side side)
+      : kernels_(kernels), side_(side) {}
+
+  // Bounds at the last step of the side.
+  StepBounds border(const StepPenalties& penalties) const;
+
+  // Bounds at a step, from those at its neighbour on the side.
+  StepBounds next(const StepPenalties& penalties, const StepBounds& neighbour,
+                  const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts) const;
+
+  // The candidate of the neighbour's active ones with the least rough bound for a join with `node`.
+  NodeIndex best_partner(NodeIndex node, const StepBounds& neighbour,
+                         const StepPenalties& neighbour_penalties,
+                         JoinFrontier::Counts& counts) const;
+
+private:
+  StepBounds choose_active(const StepPenalties& penalties) const;
+  JoinFrontier frontier(const StepBounds& neighbour, const StepPenalties& penalties) const;
+
+  JoinKernels& kernels_;
+  JoinFrontier::Side side_;
+};
 
 } // namespace phonomime

@@ -31,15 +31,6 @@ std::vector<double> costs_to_go(const LatticeInput& input, const StepStates& sta
   return to_go;
 }
 
-std::int64_t allowed_nodes(const LatticeInput& input, std::size_t t) {
-  const SearchStep& step = input.steps[t];
-  if (!step.allowed.empty()) {
-    return static_cast<std::int64_t>(input.nodes[t].core.size());
-  }
-  return static_cast<std::int64_t>(input.table.nodes.size()) -
-         static_cast<std::int64_t>(step.avoided.size());
-}
-
 } // namespace
 
 RunnersUp find_runners_up(const LatticeInput& input, const Lattice& lattice, const NodePath& path,
@@ -63,7 +54,8 @@ RunnersUp find_runners_up(const LatticeInput& input, const Lattice& lattice, con
     std::ranges::sort(others, [](const RunnerUp& a, const RunnerUp& b) {
       return a.delta != b.delta ? a.delta < b.delta : a.node < b.node;
     });
-    const std::int64_t wanted = std::min<std::int64_t>(count, allowed_nodes(input, t) - 1);
+    const std::int64_t wanted =
+        std::min<std::int64_t>(count, input.penalties[t].allowed_count() - 1);
     result.complete = result.complete && static_cast<std::int64_t>(others.size()) >= wanted;
     others.resize(std::min(others.size(), static_cast<std::size_t>(std::max(count, 0))));
   }

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace phonomime {
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A node that may stand at a step, with a lower bound of the cost that follows it.
 struct Candidate {
@@ -15,33 +18,28 @@ struct Candidate {
   double to_go = 0.0;
 };
 
-std::vector<Candidate> core_candidates(const LatticeInput& input, std::size_t t) {
-  const StepNodes& nodes = input.nodes[t];
-  std::vector<Candidate> candidates;
-  candidates.reserve(nodes.core.size());
-  for (std::size_t i = 0; i < nodes.core.size(); ++i) {
-    candidates.push_back({nodes.core[i], nodes.core_penalty[i], input.bounds.core_to_go[t][i]});
-  }
-  return candidates;
-}
-
-// Candidates from which a path may stay within the budget, given the least cost of the step before.
+// Nodes that a path within the budget may have at step t, given the least cost of the step before.
 std::vector<Candidate> possible_candidates(const LatticeInput& input, std::size_t t,
                                            double least_before, double budget) {
-  std::vector<Candidate> candidates = core_candidates(input, t);
-  std::erase_if(candidates,
-                [&](const Candidate& c) { return least_before + c.penalty + c.to_go > budget; });
-  for (const double penalty : input.nodes[t].rest_penalties) {
-    const double to_go = input.bounds.rest_to_go[t];
-    if (least_before + penalty + to_go > budget) {
-      break; // ascending
+  const StepPenalties& penalties = input.penalties[t];
+  const StepBounds& to_go = input.to_go[t];
+  std::vector<Candidate> candidates;
+  const auto add = [&](NodeIndex node, double bound) {
+    const double penalty = penalties[node];
+    if (penalty < kInfinity && least_before + penalty + bound <= budget) {
+      candidates.push_back({node, penalty, bound});
     }
-    for (const NodeIndex node : rest_of_step(input.table, input.classes, input.steps[t],
-                                             input.kernels.cost.weights(), penalty)) {
-      candidates.push_back({node, penalty, to_go});
+  };
+  const double inactive = penalties.least_beyond(to_go.active_penalty) + to_go.inactive_bound;
+  if (least_before + inactive <= budget) {
+    for (const NodeIndex node : penalties.nodes_up_to(budget)) {
+      add(node, to_go[node]);
+    }
+  } else {
+    for (std::size_t i = 0; i < to_go.active.size(); ++i) {
+      add(to_go.active[i], to_go.bound[i]);
     }
   }
-  std::ranges::sort(candidates, {}, &Candidate::node);
   return candidates;
 }
 
@@ -94,8 +92,8 @@ Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Co
   for (std::size_t t = 0; t < input.steps.size(); ++t) {
     input.progress.update("search", static_cast<std::int64_t>(t),
                           static_cast<std::int64_t>(input.steps.size()));
-    const double least_before = t == 0 ? 0.0 : std::ranges::min(lattice.back().cost);
-    const std::vector<Candidate> candidates = possible_candidates(input, t, least_before, budget);
+    const std::vector<Candidate> candidates =
+        possible_candidates(input, t, t == 0 ? 0.0 : std::ranges::min(lattice.back().cost), budget);
     ensure_nodes(input, candidates);
     lattice.push_back(t == 0 ? first_states(candidates)
                              : next_states(input, lattice.back(), candidates, budget, counts));
@@ -104,30 +102,24 @@ Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Co
 }
 
 double cost_of_relaxed_path(const LatticeInput& input, JoinFrontier::Counts& counts) {
-  const auto estimate = [&](std::size_t t, std::size_t i) {
-    return input.nodes[t].core_penalty[i] + input.bounds.core_to_go[t][i];
-  };
-  const auto place_of_best = [&](std::size_t t) {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < input.nodes[t].core.size(); ++i) {
-      best = estimate(t, i) < estimate(t, best) ? i : best;
-    }
-    return best;
-  };
-  std::size_t place = place_of_best(0);
-  double cost = input.nodes[0].core_penalty[place];
+  const std::vector<NodeIndex>& starts = input.to_go[0].active;
+  NodeIndex node = *std::ranges::min_element(starts, {}, [&](NodeIndex start) {
+    return input.penalties[0][start] + input.to_go[0][start];
+  });
+  double cost = input.penalties[0][node];
+  const RelaxedRecursion recursion(input.kernels, JoinFrontier::Side::later);
   for (std::size_t t = 0; t + 1 < input.steps.size(); ++t) {
-    const NodeIndex from = input.nodes[t].core[place];
-    const NodeIndex to = input.bounds.core_successor[t][place];
-    const std::vector<NodeIndex>& next = input.nodes[t + 1].core;
-    place = to == kNoNode
-                ? place_of_best(t + 1)
-                : static_cast<std::size_t>(std::ranges::lower_bound(next, to) - next.begin());
-    const std::array<NodeIndex, 2> join = {from, next[place]};
+    const std::vector<NodeIndex>& active = input.to_go[t].active;
+    const auto place = std::ranges::lower_bound(active, node) - active.begin();
+    NodeIndex next = input.to_go[t].partner[static_cast<std::size_t>(place)];
+    if (next == kNoNode) { // an inactive one has the least bound
+      next = recursion.best_partner(node, input.to_go[t + 1], input.penalties[t + 1], counts);
+    }
+    const std::array<NodeIndex, 2> join = {node, next};
     input.kernels.ensure(join);
     ++counts.transitions;
-    cost = (cost + input.kernels.cost.transition(join[0], join[1])) +
-           input.nodes[t + 1].core_penalty[place];
+    cost = (cost + input.kernels.cost.transition(node, next)) + input.penalties[t + 1][next];
+    node = next;
   }
   return cost;
 }
@@ -148,7 +140,8 @@ NodePath best_path(const LatticeInput& input, const Lattice& lattice) {
     node = lattice[t].predecessor[at];
   }
   for (std::size_t t = 0; t < length; ++t) {
-    const MotionNode& info = input.table.nodes[static_cast<std::size_t>(path.nodes[t])];
+    const MotionNode& info =
+        input.kernels.cost.table().nodes[static_cast<std::size_t>(path.nodes[t])];
     path.steps[t].observation =
         observation_cost(input.steps[t], info, input.kernels.cost.weights());
     path.steps[t].emotion = emotion_cost(input.steps[t], info, input.kernels.cost.weights());

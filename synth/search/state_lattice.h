@@ -22,11 +22,9 @@ using Lattice = std::vector<StepStates>;
 
 // What the passes of a search share.
 struct LatticeInput {
-  const MotionTable& table;
-  const NodeClasses& classes;
   std::span<const SearchStep> steps;
-  std::span<const StepNodes> nodes; // per step
-  const RelaxedBounds& bounds;
+  std::span<const StepPenalties> penalties; // per step
+  std::span<const StepBounds> to_go;        // per step: bounds of all that follows
   JoinKernels& kernels;
   const Progress& progress;
 };

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
+#include <span>
 
 namespace phonomime {
 
@@ -33,74 +35,71 @@ bool is_allowed(const SearchStep& step, NodeIndex node) {
 
 namespace {
 
-double class_penalty(const MotionTable& table, const NodeClasses& classes, std::size_t class_index,
-                     const SearchStep& step, const CostWeights& weights) {
-  const NodeIndex any = classes.nodes(class_index).front();
-  return step_penalty(step, table.nodes[static_cast<std::size_t>(any)], weights);
-}
-
-// Adds the nodes of a class that the step does not avoid.
-void append_allowed(const SearchStep& step, std::span<const NodeIndex> nodes,
-                    std::vector<NodeIndex>& to) {
-  std::ranges::copy_if(nodes, std::back_inserter(to), [&](NodeIndex node) {
-    return !std::ranges::binary_search(step.avoided, node);
-  });
-}
-
-// All nodes of the table, by penalty.
-void split_free_step(const MotionTable& table, const NodeClasses& classes, const SearchStep& step,
-                     const CostWeights& weights, StepNodes& nodes) {
-  std::vector<double> penalties;
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    const bool some = std::ranges::any_of(classes.nodes(c), [&](NodeIndex node) {
-      return !std::ranges::binary_search(step.avoided, node);
-    });
-    if (some) {
-      penalties.push_back(class_penalty(table, classes, c, step, weights));
-    }
-  }
-  std::ranges::sort(penalties);
-  penalties.erase(std::unique(penalties.begin(), penalties.end()), penalties.end());
-  if (penalties.empty()) {
-    return;
-  }
-  nodes.core = rest_of_step(table, classes, step, weights, penalties.front());
-  nodes.core_penalty.assign(nodes.core.size(), penalties.front());
-  nodes.rest_penalties.assign(penalties.begin() + 1, penalties.end());
-}
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-StepNodes split_step(const MotionTable& table, const NodeClasses& classes, const SearchStep& step,
-                     const CostWeights& weights) {
-  StepNodes nodes;
-  if (step.allowed.empty()) {
-    split_free_step(table, classes, step, weights, nodes);
+StepPenalties::StepPenalties(const MotionTable& table, const NodeClasses& classes,
+                             const SearchStep& step, const CostWeights& weights)
+    : classes_(classes), step_(step), least_(kInfinity) {
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    const NodeIndex any = classes.nodes(c).front();
+    by_class_.push_back(step_penalty(step, table.nodes[static_cast<std::size_t>(any)], weights));
   }
-  for (const NodeIndex node : step.allowed) {
-    if (is_allowed(step, node)) {
-      nodes.core.push_back(node);
-      nodes.core_penalty.push_back(
-          step_penalty(step, table.nodes[static_cast<std::size_t>(node)], weights));
+  const auto add = [&](std::span<const NodeIndex> nodes) {
+    const auto open =
+        std::ranges::find_if(nodes, [&](NodeIndex node) { return (*this)[node] < kInfinity; });
+    if (open != nodes.end()) {
+      least_ = std::min(least_, (*this)[*open]);
     }
+  };
+  for (const NodeIndex& node : step.allowed) {
+    add(std::span(&node, 1));
   }
-  if (nodes.core.empty()) {
+  for (std::size_t c = 0; step.allowed.empty() && c < classes.size(); ++c) {
+    add(classes.nodes(c));
+  }
+  if (least_ == kInfinity) {
     throw InternalError({.what = "a step of the search has no node that is allowed"});
   }
-  return nodes;
 }
 
-std::vector<NodeIndex> rest_of_step(const MotionTable& table, const NodeClasses& classes,
-                                    const SearchStep& step, const CostWeights& weights,
-                                    double penalty) {
+double StepPenalties::operator[](NodeIndex node) const {
+  return is_allowed(step_, node) ? by_class_[classes_.class_of(node)] : kInfinity;
+}
+
+std::vector<NodeIndex> StepPenalties::nodes_up_to(double most) const {
   std::vector<NodeIndex> members;
-  for (std::size_t c = 0; step.allowed.empty() && c < classes.size(); ++c) {
-    if (class_penalty(table, classes, c, step, weights) == penalty) {
-      append_allowed(step, classes.nodes(c), members);
+  const auto append = [&](std::span<const NodeIndex> nodes) {
+    std::ranges::copy_if(nodes, std::back_inserter(members),
+                         [&](NodeIndex node) { return is_allowed(step_, node); });
+  };
+  append(step_.allowed);
+  for (std::size_t c = 0; step_.allowed.empty() && c < classes_.size(); ++c) {
+    if (by_class_[c] <= most) {
+      append(classes_.nodes(c));
     }
   }
   std::ranges::sort(members);
   return members;
+}
+
+double StepPenalties::least_beyond(double most) const {
+  double least = kInfinity;
+  for (std::size_t c = 0; step_.allowed.empty() && c < classes_.size(); ++c) {
+    if (by_class_[c] > most) {
+      least = std::min(least, by_class_[c]);
+    }
+  }
+  return least;
+}
+
+std::int64_t StepPenalties::allowed_count() const {
+  if (step_.allowed.empty()) {
+    return classes_.node_count() - static_cast<std::int64_t>(step_.avoided.size());
+  }
+  return std::ranges::count_if(step_.allowed,
+                               [&](NodeIndex node) { return is_allowed(step_, node); });
 }
 
 } // namespace phonomime

@@ -4,6 +4,7 @@
 #include "synth/search/node_classes.h"
 #include "synth/search/search_types.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace phonomime {
@@ -20,22 +21,29 @@ double step_penalty(const SearchStep& step, const MotionNode& node, const CostWe
 // B of E10: whether the node may stand at the step.
 bool is_allowed(const SearchStep& step, NodeIndex node);
 
-// The nodes of one step, split for the search: `core` are those that it looks at one by one, the
-// allowed nodes of least penalty (all of them where the step is constrained); of the rest it knows
-// the penalties that occur, and lists them only where a bound cannot exclude them.
-struct StepNodes {
-  std::vector<NodeIndex> core;        // ascending
-  std::vector<double> core_penalty;   // OC + EMP of each
-  std::vector<double> rest_penalties; // different values, ascending, all above that of the core
+// OC + EMP of the nodes of a table at one step, infinite where B blocks a node.
+class StepPenalties {
+public:
+  // Keeps references to `classes` and `step`. Throws InternalError where B blocks every node.
+  StepPenalties(const MotionTable& table, const NodeClasses& classes, const SearchStep& step,
+                const CostWeights& weights);
+
+  double operator[](NodeIndex node) const;
+  double least() const { return least_; } // of the nodes that are not blocked
+
+  // The nodes of a penalty up to `most`, ascending; all that are allowed where the step names them.
+  std::vector<NodeIndex> nodes_up_to(double most) const;
+  // At most the least penalty of any other node than nodes_up_to(most); infinite where none is
+  // left.
+  double least_beyond(double most) const;
+
+  std::int64_t allowed_count() const;
+
+private:
+  const NodeClasses& classes_;
+  const SearchStep& step_;
+  std::vector<double> by_class_;
+  double least_;
 };
-
-// Splits the nodes of a table for one step. Throws InternalError where no node is allowed at all.
-StepNodes split_step(const MotionTable& table, const NodeClasses& classes, const SearchStep& step,
-                     const CostWeights& weights);
-
-// Nodes outside the core whose penalty is `penalty`, ascending. None at a step with allowed nodes.
-std::vector<NodeIndex> rest_of_step(const MotionTable& table, const NodeClasses& classes,
-                                    const SearchStep& step, const CostWeights& weights,
-                                    double penalty);
 
 } // namespace phonomime

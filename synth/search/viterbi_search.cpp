@@ -77,14 +77,19 @@ SearchResult ViterbiSearch::solve(std::span<const SearchStep> steps, const Searc
     return result;
   }
   const ThreadCount threads(options.threads);
-  std::vector<StepNodes> nodes;
+  std::vector<StepPenalties> penalties;
   for (const SearchStep& step : steps) {
-    nodes.push_back(split_step(table_, classes_, step, weights_));
-    kernels_.bound.ensure(nodes.back().core);
+    penalties.emplace_back(table_, classes_, step, weights_);
   }
   JoinFrontier::Counts counts;
-  const RelaxedBounds bounds = relaxed_bounds(nodes, kernels_, counts);
-  const LatticeInput input{table_, classes_, steps, nodes, bounds, kernels_, progress};
+  const RelaxedRecursion recursion(kernels_, JoinFrontier::Side::later);
+  std::vector<StepBounds> to_go(steps.size());
+  to_go.back() = recursion.border(penalties.back());
+  for (std::size_t t = steps.size() - 1; t-- > 0;) {
+    progress.update("search", 0, static_cast<std::int64_t>(steps.size()));
+    to_go[t] = recursion.next(penalties[t], to_go[t + 1], penalties[t + 1], counts);
+  }
+  const LatticeInput input{steps, penalties, to_go, kernels_, progress};
   const double upper_bound = cost_of_relaxed_path(input, counts);
   const Lattice lattice = exact_lattice(input, with_rounding(upper_bound), counts);
   result.path = best_path(input, lattice);

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "db/types/progress.h"
-#include "synth/search/join_bound.h"
-#include "synth/search/join_cost.h"
+#include "synth/search/node_classes.h"
 #include "synth/search/runners_up.h"
 #include "synth/search/search_types.h"
 
