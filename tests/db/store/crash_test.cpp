@@ -5,10 +5,11 @@
 #include "db/types/text.h"
 #include "tests/db/store/made_corpus.h"
 #include "tests/db/store/raw_database.h"
+#include "tests/support/mounts.h"
+#include "tests/support/temporary_folder.h"
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/mount.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -228,36 +229,13 @@ TEST_F(CrashTest, ALimitOnFileSizesIsAnErrorAndLeavesTheDatabaseAsItWas) {
   }
 }
 
-// A small file system; needs root.
-class SmallDisk {
-public:
-  SmallDisk(const fs::path& folder, const char* size) : folder_(folder) {
-    fs::create_directory(folder);
-    mounted_ = mount("tmpfs", folder.c_str(), "tmpfs", 0, size) == 0;
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  ~SmallDisk() {
-    if (mounted_) {
-      umount2(folder_.c_str(), MNT_DETACH);
-    }
-  }
-  explicit operator bool() const { return mounted_; }
-
-private:
-  fs::path folder_;
-  bool mounted_ = false;
-};
-
 std::vector<fs::path> files_in(const fs::path& folder) {
   return {fs::directory_iterator(folder), {}};
 }
 
 TEST_F(CrashTest, ADiskThatReallyFillsUpInTheFirstImportIsEmptyAgain) {
-  const SmallDisk disk(folder / "small", "size=1000k");
-  if (!disk) {
-    GTEST_SKIP() << "skipped: may not mount";
-  }
+  const auto disk = test::Mount::small_disk(folder / "small", "1000k");
+  PHONOMIME_NEEDS_MOUNT(disk);
   const Outcome outcome = import(folder / "small/motion.db", "a");
   EXPECT_EQ(outcome.status, 4);
   EXPECT_NE(outcome.message.find("the disk is full"), std::string::npos) << outcome.message;
@@ -265,10 +243,8 @@ TEST_F(CrashTest, ADiskThatReallyFillsUpInTheFirstImportIsEmptyAgain) {
 }
 
 TEST_F(CrashTest, ADiskThatReallyFillsUpKeepsWhatItHeld) {
-  const SmallDisk disk(folder / "small", "size=3900k");
-  if (!disk) {
-    GTEST_SKIP() << "skipped: may not mount";
-  }
+  const auto disk = test::Mount::small_disk(folder / "small", "3900k");
+  PHONOMIME_NEEDS_MOUNT(disk);
   path = folder / "small/motion.db";
   const Outcome first = import(path, "a");
   ASSERT_EQ(first.status, 0) << first.message;

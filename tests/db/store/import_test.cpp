@@ -4,6 +4,7 @@
 #include "tests/db/store/made_corpus.h"
 #include "tests/db/store/raw_database.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -4,8 +4,9 @@
 #include "tests/db/store/made_corpus.h"
 #include "tests/db/store/raw_database.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/mounts.h"
+#include "tests/support/temporary_folder.h"
 
-#include <sys/mount.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -207,35 +208,10 @@ TEST_F(OpenTest, AReadOnlyFileIsReadButNotWritten) {
   ASSERT_TRUE(user != 0 || seteuid(user) == 0);
 }
 
-// A folder on a file system that is mounted read-only; needs root.
-class ReadOnlyMount {
-public:
-  explicit ReadOnlyMount(const fs::path& folder) : folder_(folder) {
-    mounted_ = mount(folder.c_str(), folder.c_str(), nullptr, MS_BIND, nullptr) == 0;
-    read_only_ = mounted_ && mount(nullptr, folder.c_str(), nullptr,
-                                   MS_BIND | MS_REMOUNT | MS_RDONLY, nullptr) == 0;
-  }
-  ~ReadOnlyMount() {
-    if (mounted_) {
-      umount(folder_.c_str());
-    }
-  }
-  explicit operator bool() const { return read_only_; }
-
-private:
-  fs::path folder_;
-  bool mounted_ = false, read_only_ = false;
-};
-
-#define PHONOMIME_NEEDS_READ_ONLY_MOUNT(name, folder)                                              \
-  const ReadOnlyMount name(folder);                                                                \
-  if (!name) {                                                                                     \
-    GTEST_SKIP() << "skipped: may not mount";                                                      \
-  }
-
 TEST_F(OpenTest, ReadOnlyMediaAreRead) {
   import_here();
-  PHONOMIME_NEEDS_READ_ONLY_MOUNT(media, folder.path());
+  const auto media = test::Mount::read_only(folder.path());
+  PHONOMIME_NEEDS_MOUNT(media);
   read_everything(path);
   try {
     MotionDatabase::open(path, OpenMode::read_write);
@@ -252,7 +228,8 @@ TEST_F(OpenTest, AWalDatabaseIsReadFromReadOnlyMedia) {
   std::string bytes = read_file(path);
   bytes[18] = bytes[19] = 2;
   write_file(path, bytes);
-  PHONOMIME_NEEDS_READ_ONLY_MOUNT(media, folder.path());
+  const auto media = test::Mount::read_only(folder.path());
+  PHONOMIME_NEEDS_MOUNT(media);
   read_everything(path);
 }
 
@@ -263,7 +240,8 @@ TEST_F(OpenTest, AnUnfinishedWalOnReadOnlyMediaIsRefused) {
   bytes[18] = bytes[19] = 2;
   write_file(path, bytes);
   write_file(path.string() + "-wal", std::string(40000, '\1'));
-  PHONOMIME_NEEDS_READ_ONLY_MOUNT(media, folder.path());
+  const auto media = test::Mount::read_only(folder.path());
+  PHONOMIME_NEEDS_MOUNT(media);
   try {
     MotionDatabase::open(path, OpenMode::read_only);
     FAIL() << "opened";

@@ -2,10 +2,9 @@
 #include "tests/db/store/raw_database.h"
 
 #include "db/types/file_io.h"
+#include "tests/support/temporary_folder.h"
 
 #include <sqlite3.h>
-
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -24,19 +23,6 @@ int add_row(void* rows, int count, char** values, char** /*names*/) {
 }
 
 } // namespace
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (fs::temp_directory_path() / "phonomime_store_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) {
-    throw std::runtime_error("mkdtemp failed");
-  }
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 std::vector<std::string> raw_query(const fs::path& path, const std::string& sql) {
   sqlite3* database = nullptr;

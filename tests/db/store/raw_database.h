@@ -8,20 +8,6 @@
 // Looks into databases with SQLite's own C interface, past the code under test.
 namespace phonomime::test {
 
-// Removed with everything in it.
-class TemporaryFolder {
-public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
-
 // The rows of a query, fields joined by '|'; blobs in hexadecimal. Fails the test on an error.
 std::vector<std::string> raw_query(const std::filesystem::path& path, const std::string& sql);
 

@@ -2,6 +2,7 @@
 #include "db/types/file_io.h"
 
 #include "tests/support/expect_error.h"
+#include "tests/support/temporary_folder.h"
 
 #include <algorithm>
 #include <csignal>
@@ -19,13 +20,6 @@ namespace fs = std::filesystem;
 
 class FileIo : public testing::Test {
 protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "phonomime-file-io-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::vector<std::string> names() const {
     std::vector<std::string> found;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
@@ -35,7 +29,8 @@ protected:
     return found;
   }
 
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 using Names = std::vector<std::string>;

@@ -6,6 +6,7 @@
 
 #include "db/types/errors.h"
 #include "db/types/file_io.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/tools/demo/support.h"
 #include "tools/demo/c3d_writer.h"
 #include "tools/demo/marker_layout.h"
@@ -30,7 +31,7 @@ std::vector<MarkerPose> random_frames(int count) {
 void expect_read_back(C3dNumbers numbers) {
   if (!has_program("python3"))
     GTEST_SKIP() << "python3 is not installed";
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::vector<MarkerPose> frames = random_frames(7);
   write_file(folder.path() / "a.c3d", format_c3d(frames, 120.0, numbers));
   const ReadC3d c3d = read_with_python(folder.path() / "a.c3d");

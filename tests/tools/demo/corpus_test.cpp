@@ -6,6 +6,7 @@
 
 #include "db/types/errors.h"
 #include "db/types/file_io.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/tools/demo/support.h"
 #include "tools/demo/corpus_writer.h"
 #include "tools/demo/emotion_style.h"
@@ -44,7 +45,7 @@ protected:
     return all;
   }
 
-  ScratchFolder scratch_;
+  test::TemporaryFolder scratch_;
   CorpusJob job_;
 };
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "db/types/file_io.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/tools/demo/support.h"
 #include "tools/demo/articulation.h"
 #include "tools/demo/corpus_writer.h"
@@ -41,7 +42,7 @@ double wave_seconds(const std::string& bytes) {
 
 TEST(Speech, SpeakLeavesAWaveAndItsSegments) {
   PHONOMIME_NEEDS_FESTIVAL();
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const CommandResult result = run(speak("Bob's \"maple\" map.", folder.path() / "new dir" / "a"));
   ASSERT_EQ(result.status, 0) << result.output;
   const auto segments =
@@ -58,7 +59,7 @@ TEST(Speech, SpeakLeavesAWaveAndItsSegments) {
 
 TEST(Speech, TextIsNeverRun) {
   PHONOMIME_NEEDS_FESTIVAL();
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::string mark = (folder.path() / "mark").string();
   for (const std::string& text :
        {"one\") (system \"touch " + mark + "\") (quit \"",
@@ -74,7 +75,7 @@ TEST(Speech, TextIsNeverRun) {
 }
 
 TEST(Speech, RefusesWhatCannotBeSpoken) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_EQ(run(speak(" ?! ", folder.path() / "a")).status, 3);
   EXPECT_EQ(run(speak(std::string(3000, 'a'), folder.path() / "a")).status, 3);
   EXPECT_EQ(run(shell_quoted(kTools + "/speak")).status, 2);
@@ -82,7 +83,7 @@ TEST(Speech, RefusesWhatCannotBeSpoken) {
 }
 
 TEST(Speech, MissingFestivalIsNamedWithItsPackages) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   const std::string bash = run("command -v bash").output;
   const std::string start =
       "PATH=" + shell_quoted(folder.path().string()) + " " + bash.substr(0, bash.find('\n')) + " ";
@@ -103,7 +104,7 @@ TEST(Speech, MissingFestivalIsNamedWithItsPackages) {
 // Festival's lexicon alone, without the voice's waves, says which phonemes the sentences have.
 TEST(Speech, SentencesHoldEveryPhonemeAtLeastFourTimes) {
   PHONOMIME_NEEDS_FESTIVAL();
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   std::string scheme = "(voice_cmu_us_slt_arctic_hts)\n";
   const auto sentences = parse_sentences(read_file(kTools + "/sentences.txt"), "sentences.txt");
   EXPECT_GE(sentences.size(), 40u);
@@ -139,7 +140,7 @@ TEST(Speech, MakesACorpusWhoseLipsCloseInTheFiles) {
   PHONOMIME_NEEDS_FESTIVAL();
   if (!has_program("python3"))
     GTEST_SKIP() << "python3 is not installed";
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   write_file(folder.path() / "list.txt", "m1\tMap a pool.\n");
   const fs::path corpus = folder.path() / "corpus";
   const CommandResult result = run(

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
@@ -27,18 +26,6 @@ std::string as_lab(const std::vector<Segment>& segments) {
   for (const Segment& segment : segments)
     text += fmt::format("{:.4f} 100 {}\n", segment.end_s, segment.phoneme);
   return text;
-}
-
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "phonomime_demo.XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("no scratch folder");
-  path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 CommandResult run(const std::string& command) {

@@ -20,19 +20,6 @@ std::vector<Segment> sequence(const std::vector<Sound>& sounds);
 // The same as Festival writes them.
 std::string as_lab(const std::vector<Segment>& segments);
 
-// A folder of its own that goes with its owner.
-class ScratchFolder {
-public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
-};
-
 struct CommandResult {
   int status = -1;
   std::string output; // stdout and stderr

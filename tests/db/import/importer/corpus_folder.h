@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <gtest/gtest.h>
+#include "tests/support/temporary_folder.h"
 
 #include <cmath>
 #include <filesystem>
@@ -15,15 +15,11 @@
 namespace phonomime::test {
 
 // A corpus of one speaker in a folder of its own, with four rigid and two lip markers as CSV at
-// 50 Hz and xlabel alignments; each test spoils what it is about. Removed at the end.
+// 50 Hz and xlabel alignments; each test spoils what it is about.
 class CorpusFolder {
 public:
   CorpusFolder() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::canonical(std::filesystem::temp_directory_path()) /
-              fmt::format("phonomime_{}_{}", test->test_suite_name(), test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(corpus());
+    std::filesystem::create_directory(corpus());
     write("corpus.json", R"({"format": "phonomime-corpus", "version": 1, "name": "small",
       "phoneme_set": "arpabet", "layout": "layout.json", "sentences": "sentences.tsv"})");
     write("layout.json", R"({"format": "phonomime-layout", "version": 1, "kind": "markers",
@@ -38,13 +34,10 @@ public:
     write("b.lab", alignment(2.0));
     write_table("a\ta.csv\ta.lab\nb\tb.csv\tb.lab\n");
   }
-  CorpusFolder(const CorpusFolder&) = delete;
-  CorpusFolder& operator=(const CorpusFolder&) = delete;
-  ~CorpusFolder() { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path corpus() const { return folder_ / "corpus"; }
   std::filesystem::path database() const { return folder_ / "test.db"; }
-  std::filesystem::path outside(std::string_view name) const { return folder_ / name; }
+  std::filesystem::path outside(std::string_view name) const { return folder_.path() / name; }
 
   void write(std::string_view name, std::string_view text) const {
     std::ofstream(corpus() / name, std::ios::binary) << text;
@@ -94,7 +87,7 @@ public:
   }
 
 private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 } // namespace phonomime::test

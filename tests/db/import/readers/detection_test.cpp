@@ -4,8 +4,7 @@
 #include "tests/db/import/readers/c3d_writer.h"
 #include "tests/db/import/readers/textgrid_samples.h"
 #include "tests/support/expect_error.h"
-
-#include <unistd.h>
+#include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -14,19 +13,13 @@ namespace {
 
 class Detection : public ::testing::Test {
 protected:
-  Detection() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "phonomime-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~Detection() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path file(const std::string& name, const std::string& bytes) const {
     write_file(folder_ / name, bytes);
     return folder_ / name;
   }
 
 private:
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Detection, AlignmentsBySuffixThenContent) {
