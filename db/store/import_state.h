@@ -39,7 +39,7 @@ struct ImportState {
 
   // Back to journal_mode=DELETE when all else is gone.
   struct EndWriting {
-    void operator()(Connection* connection) const { connection->end_writing(); }
+    void operator()(Connection* writing) const { writing->end_writing(); }
   };
 
   // Destroyed from the last to the first: the transaction is rolled back unless committed.

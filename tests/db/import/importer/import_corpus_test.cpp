@@ -184,6 +184,29 @@ TEST(ImportCorpus, FaultySentencesAreLeftOutAndReportedOnlyWhereThatIsAsked) {
   EXPECT_EQ(report.frames_outside, 100);
 }
 
+TEST(ImportCorpus, GivesTheSameNumbersAtAnyThreadCount) {
+  const test::CorpusFolder folder;
+  std::string rows;
+  for (int i = 0; i < 20; ++i) {
+    folder.write(fmt::format("{}.csv", i), test::CorpusFolder::motion(100, 0.1 * i));
+    rows += fmt::format("s{0}\t{0}.csv\ta.lab\n", i);
+  }
+  folder.write_table(rows);
+  const auto imported = [&](int threads) {
+    ImportOptions options = options_for(folder);
+    options.database += std::to_string(threads);
+    options.recordings.threads = threads;
+    import_corpus(options, {});
+    return MotionDatabase::open(options.database, OpenMode::read_only).load_motion_table("");
+  };
+  const MotionTable one = imported(1);
+  const MotionTable many = imported(4);
+  EXPECT_EQ(many.nodes.size(), 100u);
+  EXPECT_EQ(many.coefficients, one.coefficients);
+  EXPECT_EQ(many.pca.basis, one.pca.basis);
+  EXPECT_EQ(many.reference_pose, one.reference_pose);
+}
+
 TEST(ImportCorpus, AStopLeavesNothing) {
   const test::CorpusFolder folder;
   std::atomic<bool> stop = false;
