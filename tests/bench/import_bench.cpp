@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/import/pca.h"
+#include "db/import/readers.h"
 #include "tests/bench/compare.h"
+#include "tests/db/import/readers/c3d_writer.h"
 #include "tests/synth/search/random_tables.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
 
 #include <Eigen/Eigenvalues>
 #include <benchmark/benchmark.h>
@@ -65,6 +71,62 @@ BENCHMARK(pca_against_plain_covariance)
     ->Iterations(3)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
+
+// 91 markers, some of them missing at times.
+test::C3dFile face_like_recording(int frames) {
+  test::C3dFile file;
+  file.floats = true;
+  file.frames = frames;
+  file.labels.clear();
+  for (int marker = 0; marker < 91; ++marker) {
+    file.labels.push_back("lm" + std::to_string(marker));
+  }
+  file.point = [](int frame, int point) {
+    const double turn = 0.01 * frame + point;
+    return test::C3dFile::Point{20.0 * std::sin(turn), 30.0 * std::cos(turn), 0.5 * point,
+                                (frame + point) % 97 == 0 ? -1.0 : 0.0};
+  };
+  return file;
+}
+
+// Number by number from a stream.
+FrameMatrix plain_points(const std::string& bytes, Eigen::Index frames, Eigen::Index points) {
+  std::istringstream stream(bytes);
+  std::uint16_t first_block = 0;
+  stream.seekg(16);
+  stream.read(reinterpret_cast<char*>(&first_block), sizeof first_block);
+  stream.seekg((first_block - 1) * 512);
+  FrameMatrix result(frames, 3 * points);
+  for (Eigen::Index frame = 0; frame < frames; ++frame) {
+    for (Eigen::Index point = 0; point < points; ++point) {
+      float numbers[4];
+      for (float& number : numbers) {
+        stream.read(reinterpret_cast<char*>(&number), sizeof number);
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        result(frame, 3 * point + axis) =
+            numbers[3] < 0.0f ? std::numeric_limits<float>::quiet_NaN() : numbers[axis];
+      }
+    }
+  }
+  return result;
+}
+
+void c3d_against_a_stream(benchmark::State& state) {
+  const test::C3dFile file = face_like_recording(2000);
+  const std::string bytes = test::write_c3d(file);
+  const auto ours = [&] { return parse_c3d(bytes, "made.c3d").frames; };
+  const auto plain = [&] { return plain_points(bytes, file.frames, std::ssize(file.labels)); };
+  const FrameMatrix read = ours();
+  const FrameMatrix expected = plain();
+  bench::verify(
+      read.rows() == expected.rows() && read.cols() == expected.cols() &&
+          (read.array() == expected.array() || (read.array().isNaN() && expected.array().isNaN()))
+              .all(),
+      "the points are not those of the file");
+  bench::compare(state, ours, plain);
+}
+BENCHMARK(c3d_against_a_stream)->Iterations(10)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace phonomime
