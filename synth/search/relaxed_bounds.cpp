@@ -5,6 +5,7 @@
 #include <array>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace phonomime {
 
@@ -23,16 +24,6 @@ double StepBounds::operator[](NodeIndex node) const {
              : inactive_bound;
 }
 
-StepBounds RelaxedRecursion::choose_active(const StepPenalties& penalties) const {
-  constexpr double kNear = 2.0; // PNT
-  StepBounds bounds;
-  bounds.active_penalty = penalties.least() + kNear * kernels_.cost.weights().pnt;
-  bounds.active = penalties.nodes_up_to(bounds.active_penalty);
-  bounds.bound.assign(bounds.active.size(), 0.0);
-  bounds.partner.assign(bounds.active.size(), kNoNode);
-  return bounds;
-}
-
 JoinFrontier RelaxedRecursion::frontier(const StepBounds& neighbour,
                                         const StepPenalties& penalties) const {
   std::vector<double> values;
@@ -43,13 +34,31 @@ JoinFrontier RelaxedRecursion::frontier(const StepBounds& neighbour,
 }
 
 StepBounds RelaxedRecursion::border(const StepPenalties& penalties) const {
-  return choose_active(penalties);
+  StepBounds bounds;
+  bounds.active_penalty = most_active_penalty(penalties);
+  bounds.active = penalties.nodes_up_to(bounds.active_penalty);
+  bounds.bound.assign(bounds.active.size(), 0.0);
+  bounds.partner.assign(bounds.active.size(), kNoNode);
+  return bounds;
 }
 
 StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBounds& neighbour,
                                   const StepPenalties& neighbour_penalties,
                                   JoinFrontier::Counts& counts) const {
-  StepBounds bounds = choose_active(penalties);
+  const double most = most_active_penalty(penalties);
+  StepBounds bounds =
+      bounds_of(penalties.nodes_up_to(most), neighbour, neighbour_penalties, counts);
+  bounds.active_penalty = most;
+  return bounds;
+}
+
+StepBounds RelaxedRecursion::bounds_of(std::vector<NodeIndex> active, const StepBounds& neighbour,
+                                       const StepPenalties& neighbour_penalties,
+                                       JoinFrontier::Counts& counts) const {
+  StepBounds bounds;
+  bounds.active = std::move(active);
+  bounds.bound.resize(bounds.active.size());
+  bounds.partner.assign(bounds.active.size(), kNoNode);
   const bool many = std::max(bounds.active.size(), neighbour.active.size()) > kManyNodes;
   kernels_.bound.ensure(bounds.active);
   kernels_.bound.ensure(neighbour.active);
@@ -80,6 +89,11 @@ StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBoun
                       bounds.partner[order[i]] = best.node;
                     });
   return bounds;
+}
+
+double RelaxedRecursion::most_active_penalty(const StepPenalties& penalties) const {
+  constexpr double kNear = 2.0; // PNT
+  return penalties.least() + kNear * kernels_.cost.weights().pnt;
 }
 
 NodeIndex RelaxedRecursion::best_partner(NodeIndex node, const StepBounds& neighbour,

@@ -20,6 +20,23 @@ struct StepBounds {
   double inactive_bound = 0.0;    // of every other node
 
   double operator[](NodeIndex node) const;
+
+  // Keeps the active nodes for which keep(node, bound) holds.
+  template <typename Keep>
+  void keep_if(const Keep& keep) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      if (keep(active[i], bound[i])) {
+        active[kept] = active[i];
+        bound[kept] = bound[i];
+        partner[kept] = partner[i];
+        ++kept;
+      }
+    }
+    active.resize(kept);
+    bound.resize(kept);
+    partner.resize(kept);
+  }
 };
 
 // One step of the relaxed recursion: Algorithm 1 with bounds in the place of joins.
@@ -40,13 +57,18 @@ public:
   StepBounds next(const StepPenalties& penalties, const StepBounds& neighbour,
                   const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts) const;
 
+  // Bounds of these nodes (ascending) alone, from those of the neighbouring step.
+  StepBounds bounds_of(std::vector<NodeIndex> nodes, const StepBounds& neighbour,
+                       const StepPenalties& neighbour_penalties,
+                       JoinFrontier::Counts& counts) const;
+
   // The candidate of the neighbour's active ones with the least rough bound for a join with `node`.
   NodeIndex best_partner(NodeIndex node, const StepBounds& neighbour,
                          const StepPenalties& neighbour_penalties,
                          JoinFrontier::Counts& counts) const;
 
 private:
-  StepBounds choose_active(const StepPenalties& penalties) const;
+  double most_active_penalty(const StepPenalties& penalties) const;
   JoinFrontier frontier(const StepBounds& neighbour, const StepPenalties& penalties) const;
 
   JoinKernels& kernels_;

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/search/search_session.h"
+
+#include "synth/search/thread_count.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace phonomime {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool is_constrained(const SearchStep& step) {
+  return !step.allowed.empty() || !step.avoided.empty();
+}
+
+SearchStep without_constraints(const SearchStep& step) {
+  SearchStep free = step;
+  free.allowed.clear();
+  free.avoided.clear();
+  return free;
+}
+
+bool same_free_step(const SearchStep& a, const SearchStep& b) {
+  return a.phoneme == b.phoneme && a.viseme == b.viseme && a.emotion == b.emotion &&
+         a.is_silence == b.is_silence;
+}
+
+// One edited transcript: bounds of the free one are admissible for it.
+class PivotedSearch {
+public:
+  PivotedSearch(SearchSpace& space, std::span<const StepPenalties> penalties,
+                std::span<const StepBounds> free_so_far, std::span<const StepBounds> free_to_go,
+                std::span<const SearchStep> steps, std::size_t pivot, JoinFrontier::Counts& counts)
+      : kernels_(space.kernels), penalties_(penalties), free_to_go_(free_to_go), pivot_(pivot),
+        counts_(counts) {
+    const RelaxedRecursion before(kernels_, JoinFrontier::Side::earlier);
+    for (std::size_t t = 0; t <= pivot_; ++t) {
+      if (!is_constrained(steps[t])) {
+        so_far_.push_back(free_so_far[t]);
+      } else if (t == 0) {
+        so_far_.push_back(before.border(penalties_[t]));
+      } else {
+        so_far_.push_back(before.next(penalties_[t], so_far_[t - 1], penalties_[t - 1], counts_));
+      }
+    }
+    const bool is_last = pivot_ + 1 == penalties_.size();
+    const RelaxedRecursion after(kernels_, JoinFrontier::Side::later);
+    if (!is_constrained(steps[pivot_])) {
+      to_go_at_pivot_ = free_to_go_[pivot_];
+    } else {
+      to_go_at_pivot_ = is_last ? after.border(penalties_[pivot_])
+                                : after.next(penalties_[pivot_], free_to_go_[pivot_ + 1],
+                                             penalties_[pivot_ + 1], counts_);
+    }
+  }
+
+  // The cost of a real path: from the best node of the pivot along the joins that the bounds took.
+  double upper_bound() const {
+    const StepBounds& at = to_go_at_pivot_;
+    std::vector<NodeIndex> path(penalties_.size());
+    path[pivot_] = *std::ranges::min_element(at.active, {}, [&](NodeIndex node) {
+      return so_far_[pivot_][node] + penalties_[pivot_][node] + at[node];
+    });
+    for (std::size_t t = pivot_; t-- > 0;) {
+      path[t] = partner(JoinFrontier::Side::earlier, path[t + 1], so_far_[t + 1], so_far_[t], t);
+    }
+    for (std::size_t t = pivot_ + 1; t < path.size(); ++t) {
+      path[t] = partner(JoinFrontier::Side::later, path[t - 1],
+                        t - 1 == pivot_ ? at : free_to_go_[t - 1], free_to_go_[t], t);
+    }
+    return cost_of_path(path);
+  }
+
+  // Bounds of all that follows each step; before the pivot only for nodes that a path within the
+  // budget may have.
+  std::vector<StepBounds> bounds_within(double budget) const {
+    std::vector<StepBounds> bounds(free_to_go_.begin(), free_to_go_.end());
+    bounds[pivot_] = to_go_at_pivot_;
+    for (std::size_t t = pivot_; t-- > 0;) {
+      bounds[t] = narrowed(t, bounds[t + 1], budget);
+    }
+    return bounds;
+  }
+
+private:
+  NodeIndex partner(JoinFrontier::Side side, NodeIndex node, const StepBounds& own,
+                    const StepBounds& neighbour, std::size_t t) const {
+    const auto place = std::ranges::lower_bound(own.active, node);
+    const NodeIndex known = place == own.active.end() || *place != node
+                                ? kNoNode
+                                : own.partner[static_cast<std::size_t>(place - own.active.begin())];
+    if (known != kNoNode && penalties_[t][known] < kInfinity) {
+      return known;
+    }
+    return RelaxedRecursion(kernels_, side).best_partner(node, neighbour, penalties_[t], counts_);
+  }
+
+  double cost_of_path(std::span<const NodeIndex> path) const {
+    kernels_.ensure(path);
+    double cost = penalties_[0][path[0]];
+    for (std::size_t t = 1; t < path.size(); ++t) {
+      ++counts_.transitions;
+      cost = (cost + kernels_.cost.transition(path[t - 1], path[t])) + penalties_[t][path[t]];
+    }
+    return cost;
+  }
+
+  StepBounds narrowed(std::size_t t, const StepBounds& next, double budget) const {
+    const StepBounds& so_far = so_far_[t];
+    const StepPenalties& penalties = penalties_[t];
+    double least_ahead = penalties_[t + 1].least_beyond(next.active_penalty) + next.inactive_bound;
+    for (std::size_t i = 0; i < next.active.size(); ++i) {
+      least_ahead = std::min(least_ahead, penalties_[t + 1][next.active[i]] + next.bound[i]);
+    }
+    const auto before = [&](NodeIndex node) { return so_far[node] + penalties[node]; };
+    const double inactive = penalties.least_beyond(so_far.active_penalty) + so_far.inactive_bound;
+    std::vector<NodeIndex> nodes =
+        inactive + least_ahead <= budget ? penalties.nodes_up_to(kInfinity) : so_far.active;
+    std::erase_if(nodes, [&](NodeIndex node) {
+      const double cost = before(node);
+      return cost == kInfinity || cost + least_ahead > budget;
+    });
+    StepBounds bounds = RelaxedRecursion(kernels_, JoinFrontier::Side::later)
+                            .bounds_of(std::move(nodes), next, penalties_[t + 1], counts_);
+    bounds.keep_if([&](NodeIndex node, double bound) { return before(node) + bound <= budget; });
+    bounds.active_penalty = kInfinity; // no other node can be within the budget
+    bounds.inactive_bound = kInfinity;
+    return bounds;
+  }
+
+  JoinKernels& kernels_;
+  std::span<const StepPenalties> penalties_;
+  std::span<const StepBounds> free_to_go_;
+  std::size_t pivot_;
+  JoinFrontier::Counts& counts_;
+  std::vector<StepBounds> so_far_; // up to the pivot
+  StepBounds to_go_at_pivot_;
+};
+
+} // namespace
+
+// Steps that differ from the last call's make the bounds beyond them worthless.
+void SearchSession::take_over(std::span<const SearchStep> steps) {
+  const bool same_length = steps.size() == free_steps_.size();
+  if (!same_length) {
+    so_far_.assign(steps.size(), {});
+    to_go_.assign(steps.size(), {});
+    so_far_valid_ = 0;
+    to_go_valid_ = steps.size();
+  }
+  for (std::size_t t = 0; same_length && t < steps.size(); ++t) {
+    if (!same_free_step(steps[t], free_steps_[t])) {
+      so_far_valid_ = std::min(so_far_valid_, t);
+      to_go_valid_ = std::max(to_go_valid_, t + 1);
+    }
+  }
+  free_steps_.clear();
+  std::ranges::transform(steps, std::back_inserter(free_steps_), without_constraints);
+}
+
+// Makes so_far_ hold up to the pivot, and to_go_ from it on.
+void SearchSession::extend(std::size_t pivot, const Progress& progress,
+                           JoinFrontier::Counts& counts) {
+  const std::vector<StepPenalties> penalties = space_.penalties(free_steps_);
+  const auto total = static_cast<std::int64_t>(free_steps_.size());
+  const RelaxedRecursion after(space_.kernels, JoinFrontier::Side::later);
+  for (; to_go_valid_ > pivot; --to_go_valid_) {
+    progress.update("search", 0, total);
+    const std::size_t t = to_go_valid_ - 1;
+    to_go_[t] = t + 1 == free_steps_.size()
+                    ? after.border(penalties[t])
+                    : after.next(penalties[t], to_go_[t + 1], penalties[t + 1], counts);
+  }
+  const RelaxedRecursion before(space_.kernels, JoinFrontier::Side::earlier);
+  for (; so_far_valid_ <= pivot; ++so_far_valid_) {
+    progress.update("search", 0, total);
+    const std::size_t t = so_far_valid_;
+    so_far_[t] = t == 0 ? before.border(penalties[t])
+                        : before.next(penalties[t], so_far_[t - 1], penalties[t - 1], counts);
+  }
+}
+
+SearchResult SearchSession::solve(std::span<const SearchStep> steps, const SearchOptions& options,
+                                  const Progress& progress) {
+  if (steps.empty()) {
+    return {};
+  }
+  const ThreadCount threads(options.threads);
+  JoinFrontier::Counts counts;
+  const bool other_length = steps.size() != free_steps_.size();
+  take_over(steps);
+  if (other_length) { // both sides whole, for the edits to come
+    extend(0, progress, counts);
+    extend(steps.size() - 1, progress, counts);
+  }
+  std::size_t pivot = std::min(to_go_valid_, steps.size() - 1);
+  for (std::size_t t = pivot; t < steps.size(); ++t) {
+    pivot = is_constrained(steps[t]) ? t : pivot;
+  }
+  extend(pivot, progress, counts);
+  const std::vector<StepPenalties> penalties = space_.penalties(steps);
+  const PivotedSearch search(space_, penalties, so_far_, to_go_, steps, pivot, counts);
+  return exact_search(
+      space_, steps, penalties, search.upper_bound(),
+      [&](double budget) { return search.bounds_within(budget); }, options, progress, counts);
+}
+
+} // namespace phonomime
