@@ -24,30 +24,43 @@ constexpr const char* kFolder = ".phonomime-batch";
 constexpr const char* kFormat = "phonomime-batch-record";
 constexpr int kVersion = 1;
 
-fs::path place_of(const fs::path& path) {
-  return fs::absolute(path).lexically_normal();
+// An output's path from the first one's folder, so that a folder of results can move.
+std::string name_in_record(const fs::path& output, const fs::path& first) {
+  const auto place = [](const fs::path& path) { return fs::absolute(path).lexically_normal(); };
+  return place(output).lexically_relative(place(first).parent_path()).string();
 }
 
-// The outputs as they are, relative to the first one's folder, so that a folder of results can
-// move.
-nlohmann::ordered_json outputs_to_json(std::span<const fs::path> outputs) {
-  const fs::path folder = place_of(outputs.front()).parent_path();
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const fs::path& output : outputs) {
-    const std::string bytes = read_file(output);
-    json.push_back({{"file", place_of(output).lexically_relative(folder).string()},
-                    {"bytes", bytes.size()},
-                    {"sha256", sha256(bytes)}});
+// Of a file's last change; what matters is whether it is another.
+std::int64_t time_of_change(const fs::path& file) {
+  std::error_code error;
+  const fs::file_time_type time = fs::last_write_time(file, error);
+  if (error) {
+    throw IoError({.where = file.string(), .what = "cannot be examined", .got = error.message()});
   }
-  return json;
+  return time.time_since_epoch().count();
 }
 
-nlohmann::ordered_json record_of(std::span<const fs::path> outputs,
-                                 const std::string& fingerprint) {
-  return {{"format", kFormat},
-          {"version", kVersion},
-          {"fingerprint", fingerprint},
-          {"outputs", outputs_to_json(outputs)}};
+// A file of the recorded size and time is taken for the recorded one; of another time, its content
+// says. So the outputs of thousands of rows need not be read each time.
+bool is_as_recorded(const fs::path& output, const nlohmann::json& record) {
+  const std::int64_t time = time_of_change(output);
+  std::error_code error;
+  return fs::file_size(output, error) == record.at("bytes").get<std::uintmax_t>() && !error &&
+         (time == record.at("changed").get<std::int64_t>() ||
+          sha256(read_file(output)) == record.at("sha256").get<std::string>());
+}
+
+bool are_as_recorded(std::span<const fs::path> outputs, const nlohmann::json& records) {
+  if (records.size() != outputs.size()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (records.at(i).at("file").get<std::string>() != name_in_record(outputs[i], outputs[0]) ||
+        !is_as_recorded(outputs[i], records.at(i))) {
+      return false;
+    }
+  }
+  return true;
 }
 
 } // namespace
@@ -66,12 +79,13 @@ bool is_done(std::span<const fs::path> outputs, const std::string& fingerprint) 
   }
   try {
     const nlohmann::json record = parse_json(read_file(path), path.string());
-    // The fingerprint first: outputs that will be made again need not be read.
-    return record.is_object() && record.value("fingerprint", "") == fingerprint &&
-           record == nlohmann::json(record_of(outputs, fingerprint));
-  } catch (const Error&) {
+    return record.at("format").get<std::string>() == kFormat &&
+           record.at("version").get<int>() == kVersion &&
+           record.at("fingerprint").get<std::string>() == fingerprint &&
+           are_as_recorded(outputs, record.at("outputs"));
+  } catch (const Error&) { // something is gone or cannot be read
     return false;
-  } catch (const nlohmann::json::exception&) {
+  } catch (const nlohmann::json::exception&) { // the record holds something else
     return false;
   }
 }
@@ -85,7 +99,18 @@ void write_record(std::span<const fs::path> outputs, const std::string& fingerpr
                    .what = "the folder for the batch's records cannot be made",
                    .got = error.message()});
   }
-  write_file(path, record_of(outputs, fingerprint).dump(1) + "\n");
+  nlohmann::ordered_json record = {{"format", kFormat},
+                                   {"version", kVersion},
+                                   {"fingerprint", fingerprint},
+                                   {"outputs", nlohmann::ordered_json::array()}};
+  for (const fs::path& output : outputs) {
+    const std::string bytes = read_file(output);
+    record["outputs"].push_back({{"file", name_in_record(output, outputs.front())},
+                                 {"bytes", bytes.size()},
+                                 {"changed", time_of_change(output)},
+                                 {"sha256", sha256(bytes)}});
+  }
+  write_file(path, record.dump(1) + "\n");
 }
 
 void remove_unfinished(std::span<const fs::path> outputs) {

@@ -20,7 +20,7 @@ std::filesystem::path record_path(std::span<const std::filesystem::path> outputs
 // is missing or damaged says no.
 bool is_done(std::span<const std::filesystem::path> outputs, const std::string& fingerprint);
 
-// Records the outputs as they lie on disk. Throws IoError.
+// Records the outputs as they lie on disk. Throws IoError and InputError as read_file does.
 void write_record(std::span<const std::filesystem::path> outputs, const std::string& fingerprint);
 
 // Removes what killed batches have left beside these outputs: unfinished files, which OutputFiles
