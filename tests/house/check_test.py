@@ -25,7 +25,8 @@ class Check(unittest.TestCase):
         shutil.copytree(ROOT / "tools", self.root / "tools", ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copytree(ROOT / ".ci", self.root / ".ci")
         shutil.copy(ROOT / ".clang-format", self.root)
-        (self.root / "tests").mkdir()
+        for name in ("docs", "tests"):
+            (self.root / name).mkdir()
         self.bin.mkdir()
         for name in ("cmake", "node", "npm"):
             self.program(name, "")
@@ -89,8 +90,9 @@ class Check(unittest.TestCase):
         self.assertFails("x.cpp:1", "clang-format")
 
     def test_a_script_with_a_defect(self):
-        (self.root / "tools/x").write_text("#!/usr/bin/env bash\nrm $1\n")
-        self.assertFails("SC2086")
+        for folder in ("docs", "tools"):
+            (self.root / folder / "x").write_text("#!/usr/bin/env bash\nrm $1\n")
+            self.assertFails(f"In {folder}/x line 2", "SC2086")
 
     def test_a_failed_build(self):
         self.program("cmake", "echo no such compiler; exit 3")
