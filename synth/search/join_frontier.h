@@ -71,7 +71,7 @@ public:
   struct BoundOptions {
     std::span<const NodeIndex> nodes; // each once; much the faster where neighbours are alike
     Tightness tightness = Tightness::rough;
-    double limit = kInfinity; // nothing above it is found
+    std::span<const double> limits; // one a node, or none at all: nothing above is found
   };
   // For every node i a lower bound of the least value + TC for a join with it, with the candidate
   // that has it: calls found(i, node, best) over threads. Rough bounds do not ask for the nodes'
@@ -141,18 +141,19 @@ void JoinFrontier::bound_joins(const BoundOptions& options, Counts& counts,
   // Neighbours have much the same best join, which is tried first.
   constexpr std::size_t kChunk = 16;
   const std::size_t size = options.nodes.size();
-  for_each_in_parallel((size + kChunk - 1) / kChunk, counts,
-                       [&](std::size_t chunk, Counts& own) {
-                         NodeIndex hint = kNoNode;
-                         for (std::size_t i = chunk * kChunk;
-                              i < std::min(size, (chunk + 1) * kChunk); ++i) {
-                           const Best best = bound_join(options.nodes[i], options.tightness,
-                                                        options.limit, hint, own);
-                           found(i, options.nodes[i], best);
-                           hint = best.node;
-                         }
-                       },
-                       1);
+  for_each_in_parallel(
+      (size + kChunk - 1) / kChunk, counts,
+      [&](std::size_t chunk, Counts& own) {
+        NodeIndex hint = kNoNode;
+        for (std::size_t i = chunk * kChunk; i < std::min(size, (chunk + 1) * kChunk); ++i) {
+          const Best best =
+              bound_join(options.nodes[i], options.tightness,
+                         options.limits.empty() ? kInfinity : options.limits[i], hint, own);
+          found(i, options.nodes[i], best);
+          hint = best.node;
+        }
+      },
+      1);
 }
 
 } // namespace phonomime

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -46,13 +47,15 @@ StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBoun
                                   const StepPenalties& neighbour_penalties,
                                   JoinFrontier::Counts& counts) const {
   const double most = most_active_penalty(penalties);
-  StepBounds bounds =
-      bounds_of(penalties.nodes_up_to(most), neighbour, neighbour_penalties, counts);
+  std::vector<NodeIndex> active = penalties.nodes_up_to(most);
+  const std::vector<double> limits(active.size(), std::numeric_limits<double>::infinity());
+  StepBounds bounds = bounds_of(std::move(active), limits, neighbour, neighbour_penalties, counts);
   bounds.active_penalty = most;
   return bounds;
 }
 
-StepBounds RelaxedRecursion::bounds_of(std::vector<NodeIndex> active, const StepBounds& neighbour,
+StepBounds RelaxedRecursion::bounds_of(std::vector<NodeIndex> active,
+                                       std::span<const double> limits, const StepBounds& neighbour,
                                        const StepPenalties& neighbour_penalties,
                                        JoinFrontier::Counts& counts) const {
   StepBounds bounds;
@@ -82,8 +85,12 @@ StepBounds RelaxedRecursion::bounds_of(std::vector<NodeIndex> active, const Step
   std::vector<NodeIndex> nodes;
   std::ranges::transform(order, std::back_inserter(nodes),
                          [&](std::size_t place) { return bounds.active[place]; });
+  std::vector<double> ordered_limits;
+  std::ranges::transform(order, std::back_inserter(ordered_limits), [&](std::size_t place) {
+    return std::min(limits[place], least_inactive);
+  });
   const auto tightness = many ? JoinFrontier::Tightness::rough : JoinFrontier::Tightness::tight;
-  ahead.bound_joins({.nodes = nodes, .tightness = tightness, .limit = least_inactive}, counts,
+  ahead.bound_joins({.nodes = nodes, .tightness = tightness, .limits = ordered_limits}, counts,
                     [&](std::size_t i, NodeIndex, const JoinFrontier::Best& best) {
                       bounds.bound[order[i]] = std::min(least_inactive, best.value);
                       bounds.partner[order[i]] = best.node;

@@ -57,9 +57,10 @@ public:
   StepBounds next(const StepPenalties& penalties, const StepBounds& neighbour,
                   const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts) const;
 
-  // Bounds of these nodes (ascending) alone, from those of the neighbouring step.
-  StepBounds bounds_of(std::vector<NodeIndex> nodes, const StepBounds& neighbour,
-                       const StepPenalties& neighbour_penalties,
+  // Bounds of these nodes (ascending) alone, from those of the neighbouring step; infinite for one
+  // whose bound is above its limit (as many as nodes).
+  StepBounds bounds_of(std::vector<NodeIndex> nodes, std::span<const double> limits,
+                       const StepBounds& neighbour, const StepPenalties& neighbour_penalties,
                        JoinFrontier::Counts& counts) const;
 
   // The candidate of the neighbour's active ones with the least rough bound for a join with `node`.

@@ -4,8 +4,9 @@
 #include "synth/search/thread_count.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace phonomime {
 
@@ -35,8 +36,8 @@ public:
   PivotedSearch(SearchSpace& space, std::span<const StepPenalties> penalties,
                 std::span<const StepBounds> free_so_far, std::span<const StepBounds> free_to_go,
                 std::span<const SearchStep> steps, std::size_t pivot, JoinFrontier::Counts& counts)
-      : kernels_(space.kernels), penalties_(penalties), free_to_go_(free_to_go), pivot_(pivot),
-        counts_(counts) {
+      : kernels_(space.kernels), penalties_(penalties), free_so_far_(free_so_far),
+        free_to_go_(free_to_go), pivot_(pivot), counts_(counts) {
     const RelaxedRecursion before(kernels_, JoinFrontier::Side::earlier);
     for (std::size_t t = 0; t <= pivot_; ++t) {
       if (!is_constrained(steps[t])) {
@@ -83,6 +84,9 @@ public:
     for (std::size_t t = pivot_; t-- > 0;) {
       bounds[t] = narrowed(t, bounds[t + 1], budget);
     }
+    for (std::size_t t = pivot_ + 1; t < free_so_far_.size(); ++t) {
+      drop_beyond(budget, free_so_far_[t], penalties_[t], bounds[t]);
+    }
     return bounds;
   }
 
@@ -124,16 +128,28 @@ private:
       const double cost = before(node);
       return cost == kInfinity || cost + least_ahead > budget;
     });
+    std::vector<double> limits;
+    std::ranges::transform(nodes, std::back_inserter(limits),
+                           [&](NodeIndex node) { return budget - before(node); });
     StepBounds bounds = RelaxedRecursion(kernels_, JoinFrontier::Side::later)
-                            .bounds_of(std::move(nodes), next, penalties_[t + 1], counts_);
-    bounds.keep_if([&](NodeIndex node, double bound) { return before(node) + bound <= budget; });
+                            .bounds_of(std::move(nodes), limits, next, penalties_[t + 1], counts_);
     bounds.active_penalty = kInfinity; // no other node can be within the budget
     bounds.inactive_bound = kInfinity;
+    drop_beyond(budget, so_far, penalties, bounds);
     return bounds;
+  }
+
+  // Drops the nodes that no path within the budget can have.
+  static void drop_beyond(double budget, const StepBounds& so_far, const StepPenalties& penalties,
+                          StepBounds& to_go) {
+    to_go.keep_if([&](NodeIndex node, double bound) {
+      return so_far[node] + penalties[node] + bound <= budget;
+    });
   }
 
   JoinKernels& kernels_;
   std::span<const StepPenalties> penalties_;
+  std::span<const StepBounds> free_so_far_; // as far as they hold, at least to the pivot
   std::span<const StepBounds> free_to_go_;
   std::size_t pivot_;
   JoinFrontier::Counts& counts_;
@@ -203,7 +219,8 @@ SearchResult SearchSession::solve(std::span<const SearchStep> steps, const Searc
   }
   extend(pivot, progress, counts);
   const std::vector<StepPenalties> penalties = space_.penalties(steps);
-  const PivotedSearch search(space_, penalties, so_far_, to_go_, steps, pivot, counts);
+  const PivotedSearch search(space_, penalties, std::span(so_far_).first(so_far_valid_), to_go_,
+                             steps, pivot, counts);
   return exact_search(
       space_, steps, penalties, search.upper_bound(),
       [&](double budget) { return search.bounds_within(budget); }, options, progress, counts);
