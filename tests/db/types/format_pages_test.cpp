@@ -10,6 +10,7 @@
 #include "db/types/phoneme_set.h"
 #include "db/types/text.h"
 #include "tests/support/shared_data.h"
+#include "tools/app/manifest.h"
 
 #include <cmath>
 #include <filesystem>
@@ -120,6 +121,18 @@ TEST(FormatPages, EveryExampleIsWhatItsPageSays) {
          const std::vector<NodeConstraint> read = parse_constraints(text, "constraints.md");
          ASSERT_EQ(read.size(), 3u);
          EXPECT_EQ(read[1].keys.size(), 2u);
+       }},
+      {"manifest tsv",
+       [](const std::string& text) {
+         const std::vector<ManifestRow> rows =
+             parse_manifest(text, "manifest.md", {.outputs = {"{id}.csv"}});
+         ASSERT_EQ(rows.size(), 3u);
+         EXPECT_EQ(rows[0].options.outputs.at(1), "out/sc010_0010.csv");
+         EXPECT_EQ(rows[0].options.face, "faces/ann");
+         EXPECT_EQ(rows[0].options.fps, 24.0);
+         EXPECT_EQ(rows[1].options.outputs.at(0), "sc010_0020.csv");
+         EXPECT_EQ(rows[1].options.audio, "wav/sc010_0020.wav");
+         EXPECT_EQ(rows[2].id, "sc010_0030");
        }},
       {"weights json",
        [](const std::string& text) {
