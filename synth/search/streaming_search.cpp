@@ -152,15 +152,17 @@ void StreamingSearch::make_final(NodeIndex node) {
   front_is_final_ = true;
   StepStates& first = columns_.front().states;
   first = filtered(first, [&](std::size_t i) { return first.nodes[i] == node; });
+  bool anew = false;
   for (std::size_t k = 1; k < columns_.size(); ++k) {
     const StepStates& before = columns_[k - 1].states;
     StepStates& states = columns_[k].states;
     StepStates kept = filtered(states, [&](std::size_t i) {
       return std::ranges::binary_search(before.nodes, states.predecessor[i]);
     });
-    // Where few of the states go through the node, others do better from there.
-    const bool enough = 2 * kept.nodes.size() >= std::min(states.nodes.size(), kWidth);
-    states = enough ? std::move(kept) : next_states(before, *columns_[k].step);
+    // Where few of the states go through the node, others do better from there, and all that
+    // follows them.
+    anew = anew || 2 * kept.nodes.size() < std::min(states.nodes.size(), kWidth);
+    states = anew ? next_states(before, *columns_[k].step) : std::move(kept);
   }
 }
 
