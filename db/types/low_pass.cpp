@@ -39,32 +39,36 @@ double LowPassKernel::operator()(double distance) const {
   return sinc * bessel_i0(kaiser_beta_ * std::sqrt(1.0 - share * share)) / window_at_0_;
 }
 
+void low_pass_at(const FrameWindow& window, double position, const LowPassKernel& kernel,
+                 Eigen::Ref<Eigen::RowVectorXd> result) {
+  const Eigen::Index last = window.last;
+  const auto frame = [&](Eigen::Index k) { return window.frames.row(k - window.first); };
+  const auto first_tap = static_cast<Eigen::Index>(std::ceil(position - kernel.half_width()));
+  const auto last_tap = static_cast<Eigen::Index>(std::floor(position + kernel.half_width()));
+  // Deviations from the nearest frame are summed, not values: a constant stays exact.
+  const auto base = frame(static_cast<Eigen::Index>(std::llround(position)));
+  double weights = 0.0;
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(base.cols());
+  for (Eigen::Index tap = first_tap; tap <= last_tap; ++tap) {
+    const double weight = kernel(static_cast<double>(tap) - position);
+    weights += weight;
+    if (tap < 0) {
+      sum += weight * (2.0 * frame(0) - frame(std::min(-tap, last)) - base);
+    } else if (tap > last) {
+      sum += weight * (2.0 * frame(last) - frame(std::max(2 * last - tap, Eigen::Index{0})) - base);
+    } else {
+      sum += weight * (frame(tap) - base);
+    }
+  }
+  result = base + sum / weights;
+}
+
 FrameMatrixD low_pass(const FrameMatrixD& frames, std::span<const double> positions,
                       const LowPassKernel& kernel) {
-  const Eigen::Index last = frames.rows() - 1;
   FrameMatrixD result(static_cast<Eigen::Index>(positions.size()), frames.cols());
-  Eigen::RowVectorXd sum(frames.cols());
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
-    const double position = positions[static_cast<std::size_t>(k)];
-    const auto first_tap = static_cast<Eigen::Index>(std::ceil(position - kernel.half_width()));
-    const auto last_tap = static_cast<Eigen::Index>(std::floor(position + kernel.half_width()));
-    // Deviations from the nearest frame are summed, not values: a constant stays exact.
-    const auto base = frames.row(static_cast<Eigen::Index>(std::llround(position)));
-    double weights = 0.0;
-    sum.setZero();
-    for (Eigen::Index tap = first_tap; tap <= last_tap; ++tap) {
-      const double weight = kernel(static_cast<double>(tap) - position);
-      weights += weight;
-      if (tap < 0) {
-        sum += weight * (2.0 * frames.row(0) - frames.row(std::min(-tap, last)) - base);
-      } else if (tap > last) {
-        sum += weight * (2.0 * frames.row(last) -
-                         frames.row(std::max(2 * last - tap, Eigen::Index{0})) - base);
-      } else {
-        sum += weight * (frames.row(tap) - base);
-      }
-    }
-    result.row(k) = base + sum / weights;
+    low_pass_at({frames, 0, frames.rows() - 1}, positions[static_cast<std::size_t>(k)], kernel,
+                result.row(k));
   }
   return result;
 }

@@ -42,4 +42,17 @@ private:
 FrameMatrixD low_pass(const FrameMatrixD& frames, std::span<const double> positions,
                       const LowPassKernel& kernel);
 
+// A stretch of a motion: row i is the motion's frame first + i. `last` is the motion's last frame.
+struct FrameWindow {
+  const FrameMatrixD& frames;
+  Eigen::Index first = 0;
+  Eigen::Index last = 0;
+};
+
+// The row of low_pass at one position, to the bit, from a window that holds every frame within the
+// kernel's half width of it, and as far from an end of the motion what is reflected there: 1 by
+// #columns.
+void low_pass_at(const FrameWindow& window, double position, const LowPassKernel& kernel,
+                 Eigen::Ref<Eigen::RowVectorXd> result);
+
 } // namespace phonomime

@@ -17,6 +17,8 @@ struct ConcatStep {
   NodeIndex node = kNoNode; // of a phoneme always; of /pau/ only where show_node makes it matter
   bool captured = false;    // the node's pre() is the node of the step before
   bool show_node = false;   // a `use` constraint put the node on this /pau/
+
+  bool shows() const { return !is_silence || show_node; } // else it is filled
 };
 
 struct ConcatOptions {
