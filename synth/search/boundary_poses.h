@@ -30,9 +30,6 @@ public:
   int channels_per_group() const { return channels_per_group_; }
 
 private:
-  void fill_end(float* record, std::int64_t edge, std::int64_t before, std::int64_t after,
-                double* room) const;
-
   const MotionTable& table_;
   int channels_per_group_;
   std::size_t group_stride_;

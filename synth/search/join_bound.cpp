@@ -65,11 +65,11 @@ float summed_cluster_norms(const float* a, const float* b, int axes) {
 
 } // namespace
 
-JoinBound::JoinBound(const MotionTable& table, const CostWeights& weights)
+JoinBound::JoinBound(const MotionTable& table, const CostWeights& weights, double largest_frame)
     : axes_(table.layout.channels_per_group()),
       features_(table, cluster_rows(table, weights.alpha3), cluster_rows(table, 1.0),
                 static_cast<std::size_t>(axes_) * kClusterStride),
-      margin_(features_.rounding_margin(weights.alpha3)),
+      margin_(features_.rounding_margin(weights.alpha3, largest_frame)),
       records_(table.nodes.size(), 2 * features_.end_floats()) {}
 
 void JoinBound::ensure(std::span<const NodeIndex> nodes) {

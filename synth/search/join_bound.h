@@ -14,7 +14,8 @@ namespace phonomime {
 // All rounding errors are covered by a margin.
 class JoinBound {
 public:
-  JoinBound(const MotionTable& table, const CostWeights& weights);
+  // `largest_frame`: as largest_frame_norm().
+  JoinBound(const MotionTable& table, const CostWeights& weights, double largest_frame);
 
   // Must have been called for both nodes of a pair before its bound is asked for.
   void ensure(std::span<const NodeIndex> nodes);

@@ -4,6 +4,7 @@
 #include "synth/search/end_tree.h"
 #include "synth/search/join_bound.h"
 #include "synth/search/join_cost.h"
+#include "synth/search/linear_features.h"
 
 #include <algorithm>
 #include <limits>
@@ -16,7 +17,7 @@ namespace phonomime {
 // The costs of joins and what bounds them from below, from the cheapest to the exact.
 struct JoinKernels {
   JoinKernels(const MotionTable& table, const CostWeights& weights)
-      : sketch(table, weights), bound(table, weights), cost(table, weights) {}
+      : JoinKernels(table, weights, largest_frame_norm(table)) {}
 
   // Makes bound and cost ready for joins of these nodes. Not for parallel regions.
   void ensure(std::span<const NodeIndex> nodes) {
@@ -27,6 +28,11 @@ struct JoinKernels {
   JoinSketch sketch;
   JoinBound bound;
   JoinCost cost;
+
+private:
+  JoinKernels(const MotionTable& table, const CostWeights& weights, double largest_frame)
+      : sketch(table, weights, largest_frame), bound(table, weights, largest_frame),
+        cost(table, weights) {}
 };
 
 // The joins between one step's candidates and single nodes of the neighbouring step.

@@ -8,7 +8,6 @@
 #include <array>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 #include <Eigen/Eigenvalues>
 
@@ -101,11 +100,14 @@ void order_by_halves(NodeIndex* nodes, std::size_t count, const float* features)
 
 std::vector<NodeIndex> order_ends(const MotionTable& table, NodeEnd which,
                                   const std::vector<float>& features) {
-  using Key = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
-  std::vector<Key> keys;
+  const auto visemes = static_cast<std::int64_t>(table.visemes.size()) + 1;
+  const auto emotions = static_cast<std::int64_t>(table.emotions.size());
+  std::vector<std::int64_t> keys;
+  keys.reserve(table.nodes.size());
   for (NodeIndex node = 0; node < table.node_count(); ++node) {
     const MotionNode& info = table.nodes[static_cast<std::size_t>(node)];
-    keys.emplace_back(join_viseme(table, which, node), info.phoneme, info.emotion);
+    keys.push_back(((join_viseme(table, which, node) + 1) + visemes * info.phoneme) * emotions +
+                   info.emotion);
   }
   const auto key = [&](NodeIndex node) { return keys[static_cast<std::size_t>(node)]; };
   std::vector<NodeIndex> order(table.nodes.size());
@@ -146,7 +148,7 @@ std::int32_t join_viseme(const MotionTable& table, NodeEnd which, NodeIndex node
              : table.nodes[static_cast<std::size_t>(info.predecessor)].viseme;
 }
 
-JoinSketch::JoinSketch(const MotionTable& table, const CostWeights& weights)
+JoinSketch::JoinSketch(const MotionTable& table, const CostWeights& weights, double largest_frame)
     : first_(table.nodes.size() * kFeatures), last_(table.nodes.size() * kFeatures) {
   const Eigen::Index axes_each = std::min(2, table.layout.channels_per_group());
   const std::vector<Eigen::MatrixXd> clusters =
@@ -156,7 +158,7 @@ JoinSketch::JoinSketch(const MotionTable& table, const CostWeights& weights)
                                 sketch_rows(clusters, pose_covariance, axes_each, weights.alpha3),
                                 sketch_rows(clusters, velocity_covariance(table), axes_each, 1.0),
                                 static_cast<std::size_t>(kHalf));
-  margin_ = features.rounding_margin(weights.alpha3);
+  margin_ = features.rounding_margin(weights.alpha3, largest_frame);
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < table.nodes.size(); ++i) {
     features.fill_first(static_cast<NodeIndex>(i), first_.data() + i * kFeatures);

@@ -26,7 +26,8 @@ class JoinSketch {
 public:
   static constexpr std::size_t kFeatures = 32;
 
-  JoinSketch(const MotionTable& table, const CostWeights& weights);
+  // `largest_frame`: as largest_frame_norm().
+  JoinSketch(const MotionTable& table, const CostWeights& weights, double largest_frame);
 
   // kFeatures floats.
   const float* end(NodeEnd which, NodeIndex node) const {

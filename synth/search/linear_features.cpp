@@ -2,14 +2,14 @@
 #include "synth/search/linear_features.h"
 
 #include "synth/search/vector_dispatch.h"
+#include "synth/search/vector_lanes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace phonomime {
 
 namespace {
-
-constexpr std::size_t kMostFeatures = 256;
 
 FrameMatrixD padded_transpose(const FrameMatrixD& rows, std::size_t stride) {
   FrameMatrixD result = FrameMatrixD::Zero(rows.cols(), static_cast<Eigen::Index>(stride));
@@ -17,21 +17,22 @@ FrameMatrixD padded_transpose(const FrameMatrixD& rows, std::size_t stride) {
   return result;
 }
 
-// features[f] = float(sum over k of weights[k * stride + f] * (after[k] - before[k])).
+// features[f] = float(sum over k of weights[k * stride + f] * (after[k] - before[k])), before = 0
+// where it is null; stride a multiple of the number of lanes.
 PHONOMIME_DISPATCHED
 void project(const double* weights, const float* before, const float* after, std::size_t dimensions,
              std::size_t stride, float* features) {
-  double sums[kMostFeatures] = {};
-  for (std::size_t k = 0; k < dimensions; ++k) {
-    const double* row = weights + k * stride;
-    const double coefficient =
-        static_cast<double>(after[k]) - (before ? static_cast<double>(before[k]) : 0.0);
-    for (std::size_t f = 0; f < stride; ++f) {
-      sums[f] += row[f] * coefficient;
+  for (std::size_t f = 0; f < stride; f += kDoubleLanes) {
+    DoubleLanes sum = {};
+    for (std::size_t k = 0; k < dimensions; ++k) {
+      DoubleLanes row;
+      load(row, weights + k * stride + f);
+      const double start = before == nullptr ? 0.0 : static_cast<double>(before[k]);
+      sum += row * (static_cast<double>(after[k]) - start);
     }
-  }
-  for (std::size_t f = 0; f < stride; ++f) {
-    features[f] = static_cast<float>(sums[f]);
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+      features[f + lane] = static_cast<float>(sum[lane]);
+    }
   }
 }
 
@@ -39,7 +40,7 @@ void project(const double* weights, const float* before, const float* after, std
 
 LinearFeatures::LinearFeatures(const MotionTable& table, const FrameMatrixD& pose_rows,
                                const FrameMatrixD& velocity_rows, std::size_t stride)
-    : table_(table), stride_(std::min(stride, kMostFeatures)),
+    : table_(table), stride_((stride + kDoubleLanes - 1) / kDoubleLanes * kDoubleLanes),
       pose_(padded_transpose(pose_rows, stride_)),
       velocity_(padded_transpose(velocity_rows, stride_) * table.rate_hz) {}
 
@@ -66,18 +67,25 @@ void LinearFeatures::fill_end(float* features, std::int64_t edge, std::int64_t b
           features + stride_);
 }
 
-double LinearFeatures::rounding_margin(double alpha3) const {
+double LinearFeatures::rounding_margin(double alpha3, double largest_frame) const {
   constexpr double kFloatUnit = 0x1p-24;
-  const double coefficient =
-      table_.coefficients.size() == 0
-          ? 0.0
-          : static_cast<double>(table_.coefficients.rowwise().norm().maxCoeff());
-  const double pose = table_.pca.mean.cwiseAbs().maxCoeff() + coefficient;
-  const double velocity = 2.0 * coefficient * table_.rate_hz;
+  const double pose = table_.pca.mean.cwiseAbs().maxCoeff() + largest_frame;
+  const double velocity = 2.0 * largest_frame * table_.rate_hz;
   const double exact = (alpha3 * pose + velocity) * table_.layout.channel_count();
   const double features =
-      (pose_.colwise().norm().sum() + 2.0 * velocity_.colwise().norm().sum()) * coefficient;
+      (pose_.colwise().norm().sum() + 2.0 * velocity_.colwise().norm().sum()) * largest_frame;
   return 4.0 * kFloatUnit * (exact + features);
+}
+
+double largest_frame_norm(const MotionTable& table) {
+  constexpr float kMargin = 1.001f; // sums of squares in single precision
+  const std::int64_t frames = table.coefficients.rows();
+  float largest = 0.0f;
+#pragma omp parallel for schedule(static) reduction(max : largest)
+  for (std::int64_t i = 0; i < frames; ++i) {
+    largest = std::max(largest, table.coefficients.row(i).squaredNorm());
+  }
+  return static_cast<double>(std::sqrt(largest) * kMargin);
 }
 
 } // namespace phonomime

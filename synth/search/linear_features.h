@@ -12,7 +12,7 @@ namespace phonomime {
 // a node of one frame).
 class LinearFeatures {
 public:
-  // Both at most 256 rows (padded with zeros to `stride`) by #dimensions.
+  // Both #rows by #dimensions; features are padded with zeros to `stride`, a multiple of four.
   LinearFeatures(const MotionTable& table, const FrameMatrixD& pose_rows,
                  const FrameMatrixD& velocity_rows, std::size_t stride);
 
@@ -24,7 +24,8 @@ public:
 
   // What rounding can add to a bound of alpha3 PGap + VGap that sums these features: theirs to
   // float, those of the full poses that the exact cost compares, and of the sums themselves.
-  double rounding_margin(double alpha3) const;
+  // `largest_frame`: of the table, as largest_frame_norm().
+  double rounding_margin(double alpha3, double largest_frame) const;
 
 private:
   void fill_end(float* features, std::int64_t edge, std::int64_t before, std::int64_t after) const;
@@ -34,5 +35,8 @@ private:
   FrameMatrixD pose_;     // #dimensions by stride: transposed
   FrameMatrixD velocity_; // times the rate
 };
+
+// The largest Euclidean norm of a frame's coefficients, or a little more.
+double largest_frame_norm(const MotionTable& table);
 
 } // namespace phonomime

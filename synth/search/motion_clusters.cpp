@@ -2,6 +2,7 @@
 #include "synth/search/motion_clusters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/SVD>
@@ -10,15 +11,23 @@ namespace phonomime {
 
 namespace {
 
-// Orthogonal matrix that turns `rows` towards `target` (both #axes by #dimensions) best.
-Eigen::MatrixXd procrustes(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& target) {
-  const Eigen::MatrixXd product = target * rows.transpose();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
-}
+// The orthogonal matrix that turns `rows` towards `target` best (both #axes by #dimensions), and
+// the squared distance that is left.
+struct Turn {
+  Eigen::MatrixXd matrix;
+  double distance_sq = 0.0;
+};
 
-double turned_distance(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& centre) {
-  return (procrustes(rows, centre) * rows - centre).squaredNorm();
+Turn procrustes(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& target) {
+  const double norms = rows.squaredNorm() + target.squaredNorm();
+  if (rows.rows() == 1) {
+    const double product = (target * rows.transpose())(0, 0);
+    return {Eigen::MatrixXd::Constant(1, 1, product < 0.0 ? -1.0 : 1.0),
+            norms - 2.0 * std::abs(product)};
+  }
+  const Eigen::Matrix3d product = target * rows.transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {svd.matrixU() * svd.matrixV().transpose(), norms - 2.0 * svd.singularValues().sum()};
 }
 
 // Farthest-point seeds: fixed order, no chance.
@@ -30,7 +39,7 @@ std::vector<Eigen::MatrixXd> seed_centres(const std::vector<Eigen::MatrixXd>& ro
   while (centres.size() < count) {
     centres.push_back(rows[farthest]);
     for (std::size_t g = 0; g < rows.size(); ++g) {
-      distance[g] = std::min(distance[g], turned_distance(rows[g], centres.back()));
+      distance[g] = std::min(distance[g], procrustes(rows[g], centres.back()).distance_sq);
     }
     farthest = static_cast<std::size_t>(std::ranges::max_element(distance) - distance.begin());
   }
@@ -42,7 +51,7 @@ std::size_t nearest_centre(const Eigen::MatrixXd& rows,
   std::size_t best = 0;
   double best_distance = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < centres.size(); ++c) {
-    const double distance = turned_distance(rows, centres[c]);
+    const double distance = procrustes(rows, centres[c]).distance_sq;
     if (distance < best_distance) {
       best = c;
       best_distance = distance;
@@ -63,7 +72,7 @@ std::vector<Eigen::MatrixXd> cluster_channel_groups(const MotionTable& table, in
   const auto clusters = static_cast<std::size_t>(std::clamp(count, 1, table.layout.group_count()));
   std::vector<Eigen::MatrixXd> centres = seed_centres(rows, clusters);
   std::vector<Eigen::MatrixXd> projections;
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(axes, table.pca.dimension_count());
     std::vector<Eigen::MatrixXd> sums(clusters, zero);
@@ -71,7 +80,7 @@ std::vector<Eigen::MatrixXd> cluster_channel_groups(const MotionTable& table, in
     projections.assign(clusters, zero);
     for (std::size_t g = 0; g < rows.size(); ++g) {
       const std::size_t c = nearest_centre(rows[g], centres);
-      const Eigen::MatrixXd turn = procrustes(rows[g], centres[c]);
+      const Eigen::MatrixXd turn = procrustes(rows[g], centres[c]).matrix;
       sums[c] += turn * rows[g];
       ++members[c];
       projections[c] += turn * table.pca.basis.middleRows(axes * static_cast<int>(g), axes);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,11 +21,11 @@ public:
   // Only for nodes that ensure() has seen.
   const float* operator[](NodeIndex node) const {
     const auto slot = static_cast<std::size_t>(slots_[static_cast<std::size_t>(node)]);
-    return blocks_[slot / kBlockNodes].data() + (slot % kBlockNodes) * record_floats_;
+    return blocks_[slot / kBlockNodes].get() + (slot % kBlockNodes) * record_floats_;
   }
 
-  // Calls make(node, float* record) over threads for the nodes that have no record yet; records
-  // start as zeros. `make` must not throw. Not for parallel regions.
+  // Calls make(node, float* record) over threads for the nodes that have no record yet; `make` has
+  // to write all of it, and must not throw. Not for parallel regions.
   template <typename Make>
   void ensure(std::span<const NodeIndex> nodes, const Make& make) {
     std::vector<NodeIndex> missing;
@@ -36,7 +37,7 @@ public:
       }
     }
     while (blocks_.size() * kBlockNodes < static_cast<std::size_t>(slot_count_)) {
-      blocks_.emplace_back(kBlockNodes * record_floats_, 0.0f);
+      blocks_.push_back(std::make_unique_for_overwrite<float[]>(kBlockNodes * record_floats_));
     }
     constexpr std::size_t kWorthThreads = 64;
 #pragma omp parallel for schedule(static) if (missing.size() > kWorthThreads)
@@ -52,7 +53,7 @@ private:
   std::size_t record_floats_;
   std::vector<std::int32_t> slots_; // per node
   std::int32_t slot_count_ = 0;
-  std::vector<std::vector<float>> blocks_;
+  std::vector<std::unique_ptr<float[]>> blocks_; // first touched by the thread that fills them
 };
 
 } // namespace phonomime

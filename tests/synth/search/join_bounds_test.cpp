@@ -150,7 +150,8 @@ TEST(EndTree, looks_at_few_boxes_where_the_limit_is_small) {
 TEST(JoinSketch, puts_every_node_into_its_order_once) {
   Draw draw(3);
   const MotionTable table = drawn_table(3, draw);
-  const JoinSketch sketch(table, test::random_weights(draw));
+  const JoinKernels kernels(table, test::random_weights(draw));
+  const JoinSketch& sketch = kernels.sketch;
   for (const NodeEnd which : {NodeEnd::first, NodeEnd::last}) {
     std::vector<NodeIndex> order = sketch.order(which);
     for (std::size_t i = 0; i < order.size(); ++i) {
