@@ -33,34 +33,17 @@ FrameMatrixD cluster_rows(const MotionTable& table, double scale) {
   return rows;
 }
 
-// The sum over clusters of the norm of the difference, cluster k in lane k mod 8.
+// The sum over clusters of the norm of the difference, of poses and of velocities.
 template <std::size_t kAxes>
-inline void add_norms(const float* a, const float* b, FloatLanes& sum) {
-  for (std::size_t k = 0; k < kClusterStride; k += kFloatLanes) {
-    FloatLanes square = {};
-    for (std::size_t axis = 0; axis < kAxes; ++axis) {
-      FloatLanes from, to;
-      load(from, a + axis * kClusterStride + k);
-      load(to, b + axis * kClusterStride + k);
-      const FloatLanes difference = to - from;
-      square += difference * difference;
-    }
-    take_roots(square);
-    sum += square;
-  }
+inline float summed_end_norms(const float* a, const float* b) {
+  constexpr std::size_t kVelocity = kAxes * kClusterStride;
+  return summed_norms<FloatLanes, kFloatLanes, kAxes>(a, b, kClusterStride) +
+         summed_norms<FloatLanes, kFloatLanes, kAxes>(a + kVelocity, b + kVelocity, kClusterStride);
 }
 
 PHONOMIME_DISPATCHED
 float summed_cluster_norms(const float* a, const float* b, int axes) {
-  FloatLanes sum = {};
-  if (axes == 3) {
-    add_norms<3>(a, b, sum);
-    add_norms<3>(a + 3 * kClusterStride, b + 3 * kClusterStride, sum);
-  } else {
-    add_norms<1>(a, b, sum);
-    add_norms<1>(a + kClusterStride, b + kClusterStride, sum);
-  }
-  return sum_of_lanes(sum);
+  return axes == 3 ? summed_end_norms<3>(a, b) : summed_end_norms<1>(a, b);
 }
 
 } // namespace

@@ -45,4 +45,24 @@ inline double sum_of_lanes(const DoubleLanes& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
+// Sum over groups of the Euclidean norm of b - a, group k in lane k mod the number of lanes; planes
+// of `stride` numbers, one per axis, stride a multiple of the number of lanes.
+template <typename Lanes, std::size_t kLanes, std::size_t kAxes>
+inline auto summed_norms(const float* a, const float* b, std::size_t stride) {
+  Lanes sum = {};
+  for (std::size_t k = 0; k < stride; k += kLanes) {
+    Lanes square = {};
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+      Lanes from, to;
+      load(from, a + axis * stride + k);
+      load(to, b + axis * stride + k);
+      const Lanes difference = to - from;
+      square += difference * difference;
+    }
+    take_roots(square);
+    sum += square;
+  }
+  return sum_of_lanes(sum);
+}
+
 } // namespace phonomime

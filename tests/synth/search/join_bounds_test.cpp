@@ -5,20 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <gtest/gtest.h>
 
 namespace phonomime {
 namespace {
 
+using test::all_nodes;
 using test::Draw;
-
-std::vector<NodeIndex> all_nodes(const MotionTable& table) {
-  std::vector<NodeIndex> nodes(table.nodes.size());
-  std::iota(nodes.begin(), nodes.end(), 0);
-  return nodes;
-}
 
 MotionTable drawn_table(std::uint64_t seed, Draw& draw) {
   test::TableShape shape;

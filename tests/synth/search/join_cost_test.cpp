@@ -5,20 +5,14 @@
 #include "synth/search/join_cost.h"
 
 #include <cmath>
-#include <numeric>
 
 #include <gtest/gtest.h>
 
 namespace phonomime {
 namespace {
 
+using test::all_nodes;
 using test::Draw;
-
-std::vector<NodeIndex> all_nodes(const MotionTable& table) {
-  std::vector<NodeIndex> nodes(table.nodes.size());
-  std::iota(nodes.begin(), nodes.end(), 0);
-  return nodes;
-}
 
 // Two nodes of one marker on the x axis, in millimetres, at 10 Hz: positions by hand.
 MotionTable one_marker_table(const std::vector<std::vector<float>>& sentences_x) {

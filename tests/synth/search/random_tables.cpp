@@ -2,6 +2,7 @@
 #include "tests/synth/search/random_tables.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <Eigen/QR>
 
@@ -166,6 +167,12 @@ CostWeights random_weights(Draw& draw) {
   weights.alpha6 = weight(12.0);
   weights.pnt = weight(400.0);
   return weights;
+}
+
+std::vector<NodeIndex> all_nodes(const MotionTable& table) {
+  std::vector<NodeIndex> nodes(table.nodes.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return nodes;
 }
 
 } // namespace phonomime::test

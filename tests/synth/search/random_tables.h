@@ -46,4 +46,6 @@ std::vector<SearchStep> random_steps(const MotionTable& table, int length, Draw&
 
 CostWeights random_weights(Draw& draw);
 
+std::vector<NodeIndex> all_nodes(const MotionTable& table);
+
 } // namespace phonomime::test
