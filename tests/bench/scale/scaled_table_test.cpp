@@ -52,7 +52,7 @@ TEST(ScaledTable, LinksNeighboursOfOneSentenceBothWays) {
       const MotionNode& next = table.nodes[static_cast<std::size_t>(info.successor)];
       EXPECT_EQ(next.predecessor, node);
       EXPECT_EQ(next.sentence, info.sentence);
-      EXPECT_EQ(next.previous_phoneme, info.phoneme);
+      EXPECT_EQ(next.order, info.order + 1);
     }
     if (info.predecessor != kNoNode) {
       ASSERT_GE(info.predecessor, 0);
