@@ -16,7 +16,7 @@ namespace phonomime {
 namespace {
 
 // Six decimals hold a frame's time to a microsecond at any rate.
-double frame_time_s(const CoefficientMotion& motion, Eigen::Index frame) {
+double frame_time_s(const CoefficientMotion& motion, std::int64_t frame) {
   return static_cast<double>(frame) / motion.rate_hz;
 }
 
@@ -47,17 +47,19 @@ std::string timecode(double time_s) {
 constexpr std::span<const std::string_view> kLiveLinkShapeColumns =
     std::span(kLiveLinkColumns).first(kArkitShapeCount);
 
-} // namespace
-
-std::string marker_csv(const Layout& layout, const PcaModel& pca, const CoefficientMotion& motion,
-                       bool head) {
+std::string marker_header(const Layout& layout) {
   std::string text = "time";
   for (const ChannelGroup& group : layout.groups) {
     text += fmt::format(",{0}_x,{0}_y,{0}_z", group.name);
   }
-  text += '\n';
+  return text + '\n';
+}
+
+std::string marker_rows(const Layout& layout, const PcaModel& pca, const CoefficientMotion& motion,
+                        bool head, std::int64_t first_frame) {
+  std::string text;
   for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
-    append_decimal(text, frame_time_s(motion, frame), 6);
+    append_decimal(text, frame_time_s(motion, first_frame + frame), 6);
     const Eigen::VectorXd channels = frame_channels(pca, motion, frame);
     for (int group = 0; group < layout.group_count(); ++group) {
       Eigen::Vector3d marker = channels.segment<3>(3 * group);
@@ -75,14 +77,19 @@ std::string marker_csv(const Layout& layout, const PcaModel& pca, const Coeffici
   return text;
 }
 
-std::string weight_csv(const Layout& layout, const PcaModel& pca, const CoefficientMotion& motion) {
+std::string weight_header(const Layout& layout) {
   std::string text = "time";
   for (const ChannelGroup& group : layout.groups) {
     text += "," + group.name;
   }
-  text += '\n';
+  return text + '\n';
+}
+
+std::string weight_rows(const PcaModel& pca, const CoefficientMotion& motion,
+                        std::int64_t first_frame) {
+  std::string text;
   for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
-    append_decimal(text, frame_time_s(motion, frame), 6);
+    append_decimal(text, frame_time_s(motion, first_frame + frame), 6);
     for (const double value : frame_channels(pca, motion, frame)) {
       text += ',';
       append_decimal(text, value, 6);
@@ -90,6 +97,44 @@ std::string weight_csv(const Layout& layout, const PcaModel& pca, const Coeffici
     text += '\n';
   }
   return text;
+}
+
+std::string live_link_header() {
+  std::string text = "Timecode,BlendShapeCount";
+  for (const std::string_view column : kLiveLinkColumns) {
+    text += fmt::format(",{}", column);
+  }
+  return text + '\n';
+}
+
+std::string live_link_rows(const Layout& layout, const PcaModel& pca,
+                           const CoefficientMotion& motion, std::int64_t first_frame) {
+  std::string text;
+  for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
+    text += fmt::format("{},{}", timecode(frame_time_s(motion, first_frame + frame)),
+                        kLiveLinkColumns.size());
+    const Eigen::VectorXd channels = frame_channels(pca, motion, frame);
+    for (std::size_t i = 0; i < kLiveLinkColumns.size(); ++i) {
+      const std::optional<int> group = layout.find_group(kLiveLinkColumns[i]);
+      const double value = group ? channels[*group] : 0.0;
+      text += ',';
+      // What the PCA leaves over can put a shape a little outside of its range; angles have none.
+      append_decimal(text, i < kArkitShapeCount ? std::clamp(value, 0.0, 1.0) : value, 10);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+} // namespace
+
+std::string marker_csv(const Layout& layout, const PcaModel& pca, const CoefficientMotion& motion,
+                       bool head) {
+  return marker_header(layout) + marker_rows(layout, pca, motion, head, 0);
+}
+
+std::string weight_csv(const Layout& layout, const PcaModel& pca, const CoefficientMotion& motion) {
+  return weight_header(layout) + weight_rows(pca, motion, 0);
 }
 
 bool is_live_link_layout(const Layout& layout) {
@@ -107,24 +152,23 @@ std::string live_link_csv(const Layout& layout, const PcaModel& pca,
   if (!is_live_link_layout(layout)) {
     throw InternalError({.what = "the layout's groups are not Live Link Face's columns"});
   }
-  std::string text = "Timecode,BlendShapeCount";
-  for (const std::string_view column : kLiveLinkColumns) {
-    text += fmt::format(",{}", column);
+  return live_link_header() + live_link_rows(layout, pca, motion, 0);
+}
+
+std::string motion_csv_header(const Layout& layout) {
+  if (layout.kind == LayoutKind::markers) {
+    return marker_header(layout);
   }
-  text += '\n';
-  for (Eigen::Index frame = 0; frame < motion.coefficients.rows(); ++frame) {
-    text += fmt::format("{},{}", timecode(frame_time_s(motion, frame)), kLiveLinkColumns.size());
-    const Eigen::VectorXd channels = frame_channels(pca, motion, frame);
-    for (std::size_t i = 0; i < kLiveLinkColumns.size(); ++i) {
-      const std::optional<int> group = layout.find_group(kLiveLinkColumns[i]);
-      const double value = group ? channels[*group] : 0.0;
-      text += ',';
-      // What the PCA leaves over can put a shape a little outside of its range; angles have none.
-      append_decimal(text, i < kArkitShapeCount ? std::clamp(value, 0.0, 1.0) : value, 10);
-    }
-    text += '\n';
+  return is_live_link_layout(layout) ? live_link_header() : weight_header(layout);
+}
+
+std::string motion_csv_rows(const Layout& layout, const PcaModel& pca,
+                            const CoefficientMotion& motion, bool head, std::int64_t first_frame) {
+  if (layout.kind == LayoutKind::markers) {
+    return marker_rows(layout, pca, motion, head, first_frame);
   }
-  return text;
+  return is_live_link_layout(layout) ? live_link_rows(layout, pca, motion, first_frame)
+                                     : weight_rows(pca, motion, first_frame);
 }
 
 } // namespace phonomime

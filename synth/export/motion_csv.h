@@ -4,6 +4,7 @@
 #include "db/types/layout.h"
 #include "db/types/motion.h"
 
+#include <cstdint>
 #include <string>
 
 namespace phonomime {
@@ -29,5 +30,13 @@ bool is_live_link_layout(const Layout& layout);
 // another layout.
 std::string live_link_csv(const Layout& layout, const PcaModel& pca,
                           const CoefficientMotion& motion);
+
+// The kind that suits the layout, in parts, for motion that comes bit by bit: markers as
+// marker_csv, weights as live_link_csv where they can be, else as weight_csv.
+std::string motion_csv_header(const Layout& layout);
+
+// Its rows: `motion` goes on at frame `first_frame` of the whole.
+std::string motion_csv_rows(const Layout& layout, const PcaModel& pca,
+                            const CoefficientMotion& motion, bool head, std::int64_t first_frame);
 
 } // namespace phonomime

@@ -5,22 +5,13 @@
 #include "db/types/text.h"
 
 #include <algorithm>
-#include <iterator>
-#include <optional>
-#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace phonomime {
 
 namespace {
-
-// What all constraints on one row ask for together.
-struct RowConstraint {
-  std::optional<std::vector<NodeIndex>> use; // sorted
-  std::vector<NodeIndex> avoid;              // sorted
-  std::string where;                         // of the last constraint that changed it
-};
 
 std::size_t constrained_row(const NodeConstraint& constraint,
                             std::span<const TimedPhoneme> transcript) {
@@ -47,54 +38,6 @@ std::size_t constrained_row(const NodeConstraint& constraint,
                     .got = format_number(time) + " s"});
 }
 
-void add_constraint(const NodeConstraint& constraint, std::vector<NodeIndex> nodes,
-                    RowConstraint& row) {
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  row.where = constraint.where;
-  std::vector<NodeIndex> joined;
-  if (constraint.kind == ConstraintKind::avoid) {
-    std::ranges::set_union(row.avoid, nodes, std::back_inserter(joined));
-    row.avoid = std::move(joined);
-  } else if (!row.use) {
-    row.use = std::move(nodes);
-  } else {
-    std::ranges::set_intersection(*row.use, nodes, std::back_inserter(joined));
-    row.use = std::move(joined);
-  }
-}
-
-void check_can_be_met(const MotionTable& table, const RowConstraint& row, std::size_t index) {
-  std::vector<NodeIndex> left;
-  if (row.use) {
-    std::ranges::set_difference(*row.use, row.avoid, std::back_inserter(left));
-  }
-  const bool met = row.use ? !left.empty() : row.avoid.size() < table.nodes.size();
-  if (!met) {
-    throw InputError({.where = row.where,
-                      .what = fmt::format("the constraints on row {} contradict each other: no "
-                                          "motion node is left",
-                                          index),
-                      .remedy = "`use` lines on one row intersect, and `avoid` takes from them."});
-  }
-}
-
-void warn_of_other_phonemes(const MotionTable& table, const TimedPhoneme& asked,
-                            const NodeConstraint& constraint, const std::vector<NodeIndex>& nodes,
-                            std::vector<std::string>& warnings) {
-  for (const NodeIndex node : nodes) {
-    const std::string& phoneme =
-        table
-            .phonemes[static_cast<std::size_t>(table.nodes[static_cast<std::size_t>(node)].phoneme)]
-            .name;
-    if (!asked.is_silence() && phoneme != asked.phoneme.name) {
-      warnings.push_back(fmt::format("{}: {} was recorded as /{}/, the transcript has /{}/ there",
-                                     constraint.where, table.key(node), phoneme,
-                                     asked.phoneme.name));
-    }
-  }
-}
-
 std::vector<RowConstraint> constraints_per_row(const MotionTable& table,
                                                std::span<const TimedPhoneme> transcript,
                                                std::span<const NodeConstraint> constraints,
@@ -102,15 +45,7 @@ std::vector<RowConstraint> constraints_per_row(const MotionTable& table,
   std::vector<RowConstraint> rows(transcript.size());
   for (const NodeConstraint& constraint : constraints) {
     const std::size_t row = constrained_row(constraint, transcript);
-    std::vector<NodeIndex> nodes;
-    for (const std::string& key : constraint.keys) {
-      nodes.push_back(table.find_node(key, constraint.where));
-    }
-    if (constraint.kind == ConstraintKind::use) {
-      warn_of_other_phonemes(table, transcript[row], constraint, nodes, warnings);
-    }
-    add_constraint(constraint, std::move(nodes), rows[row]);
-    check_can_be_met(table, rows[row], row);
+    add_constraint(table, constraint, row, transcript[row], rows[row], warnings);
   }
   return rows;
 }
@@ -140,6 +75,34 @@ std::int32_t find_asked_emotion(const MotionTable& table, const EmotionModifier&
   return *emotion;
 }
 
+SearchStep make_search_step(const MotionTable& table, const Phoneme& phoneme,
+                            const EmotionModifier& emotion, RowConstraint constraint) {
+  SearchStep step;
+  step.is_silence = phoneme.name == kSilence;
+  step.phoneme = table.find_phoneme(phoneme.name).value_or(-1);
+  step.viseme = table.find_viseme(phoneme.viseme).value_or(-1);
+  step.emotion = find_asked_emotion(table, emotion, "");
+  if (constraint.use) {
+    step.allowed = std::move(*constraint.use);
+  }
+  step.avoided = std::move(constraint.avoid);
+  return step;
+}
+
+void UnrecordedPhonemes::warn_of(const Phoneme& phoneme, const SearchStep& step,
+                                 std::vector<std::string>& warnings) {
+  if (step.is_silence || seen_.contains(phoneme.name)) {
+    return;
+  }
+  seen_.insert(phoneme.name);
+  const bool recorded = std::ranges::any_of(
+      table_.nodes, [&](const MotionNode& node) { return node.phoneme == step.phoneme; });
+  if (!recorded) {
+    warnings.push_back(fmt::format(
+        "/{}/ was never recorded: a phoneme of its viseme, or another, stands in", phoneme.name));
+  }
+}
+
 TranscriptSteps make_transcript_steps(const MotionTable& table,
                                       std::span<const TimedPhoneme> transcript,
                                       std::span<const EmotionModifier> emotions,
@@ -162,26 +125,12 @@ TranscriptSteps make_transcript_steps(const MotionTable& table,
     --end;
   }
   result.first_row = first;
-  std::set<std::string> unrecorded;
+  UnrecordedPhonemes unrecorded(table);
   for (std::size_t row = first; row < end; ++row) {
     const Phoneme& phoneme = transcript[row].phoneme;
-    SearchStep step;
-    step.is_silence = transcript[row].is_silence();
-    step.phoneme = table.find_phoneme(phoneme.name).value_or(-1);
-    step.viseme = table.find_viseme(phoneme.viseme).value_or(-1);
-    step.emotion = find_asked_emotion(table, emotions[row], "");
-    const bool recorded = std::ranges::any_of(
-        table.nodes, [&](const MotionNode& node) { return node.phoneme == step.phoneme; });
-    if (!step.is_silence && !recorded && unrecorded.insert(phoneme.name).second) {
-      result.warnings.push_back(fmt::format(
-          "/{}/ was never recorded: a phoneme of its viseme, or another, stands in", phoneme.name));
-    }
     result.used.push_back(rows[row].use.has_value());
-    if (rows[row].use) {
-      step.allowed = std::move(*rows[row].use);
-    }
-    step.avoided = std::move(rows[row].avoid);
-    result.steps.push_back(std::move(step));
+    result.steps.push_back(make_search_step(table, phoneme, emotions[row], std::move(rows[row])));
+    unrecorded.warn_of(phoneme, result.steps.back(), result.warnings);
   }
   return result;
 }

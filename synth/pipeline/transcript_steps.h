@@ -5,8 +5,10 @@
 #include "db/types/motion_table.h"
 #include "db/types/node_constraint.h"
 #include "db/types/phoneme_set.h"
+#include "synth/pipeline/row_constraints.h"
 #include "synth/search/search_types.h"
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +30,21 @@ struct TranscriptSteps {
 // emotion that the table does not have, and for an intensity other than 1.
 std::int32_t find_asked_emotion(const MotionTable& table, const EmotionModifier& asked,
                                 std::string_view where);
+
+// One row of a transcript as the search sees it. Throws InputError as find_asked_emotion does.
+SearchStep make_search_step(const MotionTable& table, const Phoneme& phoneme,
+                            const EmotionModifier& emotion, RowConstraint constraint);
+
+// Tells once of each phoneme that the table does not have.
+class UnrecordedPhonemes {
+public:
+  explicit UnrecordedPhonemes(const MotionTable& table) : table_(table) {}
+  void warn_of(const Phoneme& phoneme, const SearchStep& step, std::vector<std::string>& warnings);
+
+private:
+  const MotionTable& table_;
+  std::set<std::string> seen_;
+};
 
 // `emotions`: one for each row. Throws InputError (which names file and line) for an emotion that
 // the database does not have, an intensity other than 1, and a constraint that cannot be met: an

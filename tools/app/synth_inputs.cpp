@@ -11,15 +11,13 @@
 #include "synth/search/cost_weights.h"
 
 #include <algorithm>
-#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 namespace phonomime {
 
 namespace {
-
-constexpr double kLongestTranscript_s = 7200.0;
 
 // Lest a slip in a file's times ask for more memory than there is.
 void check_length(const Alignment& alignment) {
@@ -49,45 +47,66 @@ std::vector<std::string> sets_to_try(const MotionTable& table) {
   return names;
 }
 
-// The set asked for; else the first that knows every symbol, the database's own before the others.
+// The first set that knows every symbol.
 PhonemeSet choose_phoneme_set(const SynthOptions& options, const MotionTable& table,
                               const Alignment& alignment) {
-  if (!options.phoneme_set.empty()) {
-    return options.phoneme_set.ends_with(".json")
-               ? PhonemeSet::parse(read_file(options.phoneme_set), options.phoneme_set)
-               : PhonemeSet::built_in(options.phoneme_set);
-  }
-  const std::vector<std::string> names = sets_to_try(table);
-  for (const std::string& name : names) {
-    PhonemeSet set = PhonemeSet::built_in(name);
-    if (std::ranges::all_of(alignment.rows,
-                            [&](const AlignedLabel& row) { return set.find(row.label) >= 0; })) {
-      return set;
-    }
-  }
-  return PhonemeSet::built_in(names.front()); // to_phonemes names the first unknown symbol
-}
-
-std::vector<EmotionModifier> read_emotions(const SynthOptions& options, const MotionTable& table,
-                                           const std::vector<TimedPhoneme>& transcript) {
-  const EmotionModifier fallback = options.emotion.empty()
-                                       ? EmotionModifier{.emotion = "neutral"}
-                                       : parse_emotion_modifier(options.emotion, "--emotion");
-  EmotionTrack track;
-  if (!options.emotions.empty()) {
-    track = parse_emotion_track(read_file(options.emotions), options.emotions.string());
-  }
-  for (const EmotionSpan& span : track.spans) {
-    find_asked_emotion(table, {.emotion = span.emotion, .intensity = span.intensity},
-                       at_line(track.source, span.line));
-  }
-  if (!options.emotion.empty()) {
-    find_asked_emotion(table, fallback, "--emotion");
-  }
-  return assign_emotions(track, transcript, fallback);
+  std::vector<PhonemeSet> sets = phoneme_sets_to_try(options, table);
+  const auto knows_all = [&](const PhonemeSet& set) {
+    return std::ranges::all_of(alignment.rows,
+                               [&](const AlignedLabel& row) { return set.find(row.label) >= 0; });
+  };
+  const auto chosen = std::ranges::find_if(sets, knows_all);
+  // Where none does, to_phonemes names the first symbol that the first set does not know.
+  return std::move(chosen == sets.end() ? sets.front() : *chosen);
 }
 
 } // namespace
+
+std::vector<PhonemeSet> phoneme_sets_to_try(const SynthOptions& options, const MotionTable& table) {
+  if (options.phoneme_set.ends_with(".json")) {
+    return {PhonemeSet::parse(read_file(options.phoneme_set), options.phoneme_set)};
+  }
+  std::vector<PhonemeSet> sets;
+  for (const std::string& name :
+       options.phoneme_set.empty() ? sets_to_try(table) : std::vector{options.phoneme_set}) {
+    sets.push_back(PhonemeSet::built_in(name));
+  }
+  return sets;
+}
+
+AskedEmotions read_asked_emotions(const SynthOptions& options, const MotionTable& table) {
+  AskedEmotions asked;
+  if (!options.emotion.empty()) {
+    asked.fallback = parse_emotion_modifier(options.emotion, "--emotion");
+  }
+  if (!options.emotions.empty()) {
+    asked.track = parse_emotion_track(read_file(options.emotions), options.emotions.string());
+  }
+  for (const EmotionSpan& span : asked.track.spans) {
+    find_asked_emotion(table, {.emotion = span.emotion, .intensity = span.intensity},
+                       at_line(asked.track.source, span.line));
+  }
+  if (!options.emotion.empty()) {
+    find_asked_emotion(table, asked.fallback, "--emotion");
+  }
+  return asked;
+}
+
+std::vector<NodeConstraint> read_constraints(const SynthOptions& options) {
+  return options.constraints.empty()
+             ? std::vector<NodeConstraint>()
+             : parse_constraints(read_file(options.constraints), options.constraints.string());
+}
+
+CostWeights read_weights(const SynthOptions& options, const CostWeights& default_weights) {
+  return options.weights.empty() ? default_weights
+                                 : parse_cost_weights(read_file(options.weights),
+                                                      options.weights.string(), default_weights);
+}
+
+ConcatOptions concat_options(const SynthOptions& options) {
+  return {.silence = options.silence, .smoothing_half_window = options.smoothing_half_window};
+}
 
 SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTable& table,
                                     const CostWeights& default_weights,
@@ -104,19 +123,12 @@ SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTab
   if (input.transcript.empty()) {
     throw InputError({.where = options.transcript.string(), .what = "the transcript is empty"});
   }
-  input.emotions = read_emotions(options, table, input.transcript);
-  if (!options.constraints.empty()) {
-    input.constraints =
-        parse_constraints(read_file(options.constraints), options.constraints.string());
-  }
-  input.weights = default_weights;
-  if (!options.weights.empty()) {
-    input.weights =
-        parse_cost_weights(read_file(options.weights), options.weights.string(), input.weights);
-  }
+  const AskedEmotions emotions = read_asked_emotions(options, table);
+  input.emotions = assign_emotions(emotions.track, input.transcript, emotions.fallback);
+  input.constraints = read_constraints(options);
+  input.weights = read_weights(options, default_weights);
   input.search = {.threads = options.threads, .runners_up = options.runners_up};
-  input.concat = {.silence = options.silence,
-                  .smoothing_half_window = options.smoothing_half_window};
+  input.concat = concat_options(options);
   input.fps = options.fps;
   return input;
 }

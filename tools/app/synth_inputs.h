@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "db/types/emotion_track.h"
 #include "db/types/motion_table.h"
+#include "db/types/node_constraint.h"
+#include "db/types/phoneme_set.h"
 #include "synth/pipeline/synthesize.h"
 #include "tools/app/synth.h"
 
@@ -16,5 +19,24 @@ namespace phonomime {
 SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTable& table,
                                     const CostWeights& default_weights,
                                     std::vector<std::string>& notes);
+
+// Parts of it, for a transcript that is still to come.
+
+inline constexpr double kLongestTranscript_s = 7200.0;
+
+// The alphabet that `options` names, else those that a transcript may be written in, the
+// database's own before the others.
+std::vector<PhonemeSet> phoneme_sets_to_try(const SynthOptions& options, const MotionTable& table);
+
+// What phonemes are asked to show: the track's emotions, and one where it is silent.
+struct AskedEmotions {
+  EmotionTrack track;
+  EmotionModifier fallback{.emotion = "neutral"};
+};
+AskedEmotions read_asked_emotions(const SynthOptions& options, const MotionTable& table);
+
+std::vector<NodeConstraint> read_constraints(const SynthOptions& options);
+CostWeights read_weights(const SynthOptions& options, const CostWeights& default_weights);
+ConcatOptions concat_options(const SynthOptions& options);
 
 } // namespace phonomime

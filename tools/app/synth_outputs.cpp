@@ -191,12 +191,8 @@ std::vector<std::filesystem::path> SynthOutputs::write(const SynthesisResult& re
 }
 
 std::string SynthOutputs::motion_text(const SynthesisResult& result) const {
-  if (table_.layout.kind == LayoutKind::markers) {
-    return marker_csv(table_.layout, table_.pca, result.output, options_.head.has_value());
-  }
-  return is_live_link_layout(table_.layout)
-             ? live_link_csv(table_.layout, table_.pca, result.output)
-             : weight_csv(table_.layout, table_.pca, result.output);
+  return motion_csv_header(table_.layout) +
+         motion_csv_rows(table_.layout, table_.pca, result.output, options_.head.has_value(), 0);
 }
 
 const std::string& SynthOutputs::glb(const SynthesisResult& result) {

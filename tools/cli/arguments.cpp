@@ -25,11 +25,12 @@ struct Words {
   InfoArguments info;
   NodesArguments nodes;
   SynthArguments synth;
-  BatchOptions batch; // but its synthesis
+  StreamOptions stream; // but its synthesis
+  BatchOptions batch;   // but its synthesis
   ExplainArguments explain;
   bool only_suspect = false, only_pruned = false, only_gaps = false;
   std::string head, silence = "linear", shard = "1/1";
-  bool no_rest = false;
+  bool no_rest = false, streams = false;
 };
 
 // A call's help as a page: CLI11's own shows its inner workings.
@@ -219,19 +220,38 @@ void add_synth(CLI::App& app, Words& words) {
   verb->footer("Example:\n  phonomime synth --db ann.db hello.lab --emotions hello.emotions \\\n"
                "      --constraints hello.constraints --audio hello.wav --face head.glb \\\n"
                "      -o hello.html -o hello.glb -o hello.csv\n\n"
-               "corpora_schema/ describes every file.");
+               "corpora_schema/ describes every file; corpora_schema/transcript.md also what a\n"
+               "stream takes.");
   SynthOptions& options = words.synth.options;
   add_database(verb, options.database, true);
-  verb->add_option("transcript", options.transcript,
-                   "Phonemes with times: .lab (Festival, HTK) or .TextGrid")
-      ->required()
-      ->type_name("TRANSCRIPT");
+  CLI::Option* transcript =
+      verb->add_option("transcript", options.transcript,
+                       "Phonemes with times: .lab (Festival, HTK) or .TextGrid")
+          ->required()
+          ->type_name("TRANSCRIPT");
   verb->add_option(
           "-o,--output", options.outputs,
           "Outputs; the suffix says what: .csv (marker or Live Link motion), .glb (animated "
           "mesh), .html (player), .json (the result), .txt (the explanation)")
       ->type_name("FILE...");
   add_synth_options(verb, words);
+  CLI::Option* stream = verb->add_flag_callback(
+      "--stream",
+      [transcript, &words] {
+        transcript->required(false);
+        words.streams = true;
+      },
+      "Instead of TRANSCRIPT: read lines START END LABEL [EMOTION] from standard input as they "
+      "come, and write frames as CSV to standard output as they become final");
+  verb->add_option("--look-ahead", words.stream.look_ahead,
+                   "With --stream: phonemes that are known beyond one before its motion is final, "
+                   "0 to 1000")
+      ->type_name("N")
+      ->capture_default_str()
+      ->needs(stream);
+  verb->add_flag("--compare", words.stream.compare,
+                 "With --stream: at the end, say how far from the optimum it was")
+      ->needs(stream);
 }
 
 void add_batch(CLI::App& app, Words& words) {
@@ -342,6 +362,12 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     words.arguments.verb = words.info;
   } else if (verb == "nodes") {
     words.arguments.verb = words.nodes;
+  } else if (verb == "synth" && words.streams) {
+    words.stream.synth = words.synth.options;
+    if (app.get_subcommands().front()->count("--runners-up") == 0) {
+      words.stream.synth.runners_up = 0;
+    }
+    words.arguments.verb = StreamArguments{words.stream};
   } else if (verb == "synth") {
     words.arguments.verb = words.synth;
   } else if (verb == "batch") {

@@ -4,6 +4,7 @@
 #include "db/store/motion_database.h"
 #include "tools/app/batch.h"
 #include "tools/app/import_corpus.h"
+#include "tools/app/stream.h"
 #include "tools/app/synth.h"
 
 #include <filesystem>
@@ -36,6 +37,11 @@ struct SynthArguments {
   SynthOptions options;
 };
 
+// synth --stream
+struct StreamArguments {
+  StreamOptions options;
+};
+
 struct BatchArguments {
   BatchOptions options;
 };
@@ -52,7 +58,7 @@ struct PrintArguments {
 struct Arguments {
   CommonArguments common;
   std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SynthArguments,
-               BatchArguments, ExplainArguments>
+               StreamArguments, BatchArguments, ExplainArguments>
       verb;
 };
 

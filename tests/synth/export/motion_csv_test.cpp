@@ -4,10 +4,12 @@
 #include "db/import/readers.h"
 #include "db/types/errors.h"
 #include "db/types/file_io.h"
+#include "db/types/live_link_columns.h"
 #include "db/types/text.h"
 #include "tests/support/shared_data.h"
 #include "tests/synth/retarget/made_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -118,6 +120,35 @@ TEST(LiveLinkCsv, IsForItsOwnLayoutOnly) {
   const Layout layout = weight_layout({"smile", "frown"});
   EXPECT_FALSE(is_live_link_layout(layout));
   EXPECT_THROW(live_link_csv(layout, identity_pca(2), wavy(2, 2, 30.0)), InternalError);
+}
+
+// A motion that comes in parts makes the same file, of markers, of ARKit's shapes and of others.
+TEST(MotionCsv, InPartsIsTheWhole) {
+  const Layout markers = test::made_layout({{"lm1", {}, ""}, {"chin", {}, ""}});
+  Layout others{.kind = LayoutKind::weights, .groups = {{.name = "smile"}, {.name = "frown"}}};
+  Layout arkit{.kind = LayoutKind::weights};
+  for (std::size_t i = 0; i < kArkitShapeCount; ++i) {
+    arkit.groups.push_back({.name = std::string(kLiveLinkColumns[i])});
+  }
+  for (const Layout& layout : {markers, others, arkit}) {
+    const Eigen::Index channels =
+        layout.group_count() * (layout.kind == LayoutKind::markers ? 3 : 1);
+    const PcaModel pca = identity_pca(channels);
+    CoefficientMotion motion = wavy(50, channels, 29.97);
+    motion.head.assign(50, {.translation_mm = {1, 2, 3}, .rotation = {}});
+    std::string text = motion_csv_header(layout);
+    for (Eigen::Index first = 0; first < 50; first += 7) {
+      const Eigen::Index count = std::min<Eigen::Index>(7, 50 - first);
+      CoefficientMotion part{
+          .rate_hz = motion.rate_hz,
+          .coefficients = motion.coefficients.middleRows(first, count),
+          .head = {motion.head.begin() + first, motion.head.begin() + first + count}};
+      text += motion_csv_rows(layout, pca, part, true, first);
+    }
+    EXPECT_EQ(text, layout.kind == LayoutKind::markers ? marker_csv(layout, pca, motion, true)
+                    : is_live_link_layout(layout)      ? live_link_csv(layout, pca, motion)
+                                                       : weight_csv(layout, pca, motion));
+  }
 }
 
 } // namespace
