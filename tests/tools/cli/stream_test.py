@@ -95,7 +95,7 @@ class StreamTest(cli.DatabaseTest):
 
     def test_frames_come_before_the_end(self):
         """Line by line, each followed by what it makes final; all at once gives the same bytes."""
-        lines = lines_of(rows_of(SPOKEN))
+        lines = lines_of(rows_of(3 * SPOKEN))
         stream = Stream(self)
         stream.read_until(lambda out: out.endswith(b"\n"))
         self.assertTrue(stream.out.startswith(b"time,brow_top_x,"))
