@@ -60,11 +60,18 @@ void distances_to_boxes(const float* point, const float* low, const float* high,
   std::memcpy(distances, &total, sizeof total);
 }
 
-float rounded_down(double value) {
-  const auto nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) <= value
-             ? nearest
-             : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+// Bounds from distances: value + what the distance says for certain + `other_viseme` where neither
+// `viseme` nor a mixture is meant, less the rounding of these sums.
+PHONOMIME_DISPATCHED
+void bounds_from_distances(const float* distances, const float* value, const std::int32_t* visemes,
+                           std::int32_t viseme, float other_viseme, float margin, float* bounds) {
+  constexpr float kCertain = 1.0f - 1e-5f;
+  constexpr float kBelow = 1.0f - 4e-7f;
+  for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
+    const bool same = visemes[lane] == viseme || visemes[lane] == kMixed;
+    const float join = std::max(distances[lane] * kCertain - margin, 0.0f);
+    bounds[lane] = (value[lane] + (join + (same ? 0.0f : other_viseme))) * kBelow;
+  }
 }
 
 } // namespace
@@ -98,7 +105,7 @@ EndTree::Level EndTree::points(const MotionTable& table, NodeEnd which,
     }
     level.viseme[i] = join_viseme(table, which, entry.node);
     if (i < entries.size()) {
-      level.value[i] = rounded_down(entry.value);
+      level.value[i] = float_below(entry.value);
     }
   }
   return level;
@@ -131,7 +138,7 @@ EndTree::Level EndTree::boxes(const Level& below, bool below_is_points) {
 }
 
 void EndTree::bound_children(const Query& query, std::size_t level, std::size_t group,
-                             std::array<double, kFan>& bounds) const {
+                             std::array<float, kFan>& bounds) const {
   const Level& own = levels_[level];
   const std::size_t place = group * kFeatures * kFan;
   std::array<float, kFan> distances;
@@ -140,14 +147,8 @@ void EndTree::bound_children(const Query& query, std::size_t level, std::size_t 
   } else {
     distances_to_boxes(query.end, &own.low[place], &own.high[place], distances.data());
   }
-  for (std::size_t i = 0; i < kFan; ++i) {
-    const std::int32_t viseme = own.viseme[group * kFan + i];
-    double join = sketch_->certain(distances[i]);
-    if (viseme != kMixed && viseme != query.viseme) {
-      join += query.other_viseme;
-    }
-    bounds[i] = static_cast<double>(own.value[group * kFan + i]) + join;
-  }
+  bounds_from_distances(distances.data(), &own.value[group * kFan], &own.viseme[group * kFan],
+                        query.viseme, query.other_viseme, query.margin, bounds.data());
 }
 
 } // namespace phonomime

@@ -4,12 +4,24 @@
 #include "synth/search/join_sketch.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
 namespace phonomime {
+
+// The nearest float that is not above a number, and not below one.
+inline float float_below(double number) {
+  const auto nearest = static_cast<float>(number);
+  return static_cast<double>(nearest) <= number
+             ? nearest
+             : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
+}
+inline float float_above(double number) {
+  return -float_below(-number);
+}
 
 // Ends of motion nodes with the cost of all that lies behind each, in a tree of boxes, eight
 // children a box: finds those whose cost + join may be within a limit, nearest first, at a fraction
@@ -33,20 +45,23 @@ public:
   template <typename Limit, typename Visit>
   std::int64_t search(const float* end, std::int32_t viseme, double other_viseme,
                       const Limit& limit, const Visit& visit) const {
-    return levels_.empty()
-               ? 0
-               : descend({end, viseme, other_viseme}, levels_.size() - 1, 0, limit, visit);
+    if (levels_.empty()) {
+      return 0;
+    }
+    const Query query{end, viseme, float_below(other_viseme), float_above(sketch_->margin())};
+    return descend(query, levels_.size() - 1, 0, limit, visit);
   }
 
 private:
   static constexpr std::size_t kFan = 8;
   static constexpr std::size_t kFeatures = JoinSketch::kFeatures;
-  static constexpr double kNothing = std::numeric_limits<double>::infinity();
+  static constexpr float kNothing = std::numeric_limits<float>::infinity();
 
   struct Query {
     const float* end;
     std::int32_t viseme;
-    double other_viseme;
+    float other_viseme;
+    float margin;
   };
   // Eight boxes (points at the lowest level, where `high` is not kept), feature by feature.
   struct Level {
@@ -59,12 +74,12 @@ private:
   static Level boxes(const Level& below, bool below_is_points);
   // Bounds of the eight children of a group.
   void bound_children(const Query& query, std::size_t level, std::size_t group,
-                      std::array<double, kFan>& bounds) const;
+                      std::array<float, kFan>& bounds) const;
 
   template <typename Limit, typename Visit>
   std::int64_t descend(const Query& query, std::size_t level, std::size_t group, const Limit& limit,
                        const Visit& visit) const {
-    std::array<double, kFan> bounds;
+    std::array<float, kFan> bounds;
     bound_children(query, level, group, bounds);
     std::int64_t computed = kFan;
     for (std::size_t taken = 0; taken < kFan; ++taken) {
@@ -72,7 +87,7 @@ private:
       for (std::size_t i = 1; i < kFan; ++i) {
         nearest = bounds[i] < bounds[nearest] ? i : nearest;
       }
-      if (bounds[nearest] == kNothing || bounds[nearest] > limit()) {
+      if (bounds[nearest] == kNothing || static_cast<double>(bounds[nearest]) > limit()) {
         break;
       }
       if (level == 0) {

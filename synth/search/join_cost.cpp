@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace phonomime {
 
@@ -53,15 +54,16 @@ inline double second_difference_norm(const double* before, const double* at, con
   return std::sqrt(sum_of_lanes(sum));
 }
 
-// Sum over the blend's inner frames of the norm of its second difference. `frames`: room for three
-// padded frames, zeros.
+// Sum over the blend's inner frames of the norm of its second difference; ends early above `limit`.
+// `frames`: room for three padded frames, zeros.
 PHONOMIME_DISPATCHED
 double summed_second_differences(const float* source, std::int32_t source_count,
                                  const float* target, std::int32_t target_count,
-                                 std::size_t dimensions, std::size_t padded, double* frames) {
+                                 std::size_t dimensions, std::size_t padded, double limit,
+                                 double* frames) {
   const std::int32_t last = target_count - 1;
   double sum = 0.0;
-  for (std::int32_t m = 0; m <= last; ++m) {
+  for (std::int32_t m = 0; m <= last && sum <= limit; ++m) {
     const double s = static_cast<double>(m) / last;
     const double u = s * (source_count - 1);
     const std::int32_t below = std::min(static_cast<std::int32_t>(u), source_count - 1);
@@ -95,7 +97,7 @@ double JoinCost::velocity_gap(NodeIndex from, NodeIndex to) const {
                             poses_.group_stride(), poses_.channels_per_group());
 }
 
-double JoinCost::direct_smoothing_cost(NodeIndex from, NodeIndex target) const {
+double JoinCost::summed_smoothing(NodeIndex from, NodeIndex target, double limit) const {
   const MotionNode& source = table_.nodes[static_cast<std::size_t>(from)];
   const MotionNode& q = table_.nodes[static_cast<std::size_t>(target)];
   if (q.frame_count < 3) {
@@ -105,11 +107,20 @@ double JoinCost::direct_smoothing_cost(NodeIndex from, NodeIndex target) const {
   const std::size_t padded = (dimensions + kDoubleLanes - 1) / kDoubleLanes * kDoubleLanes;
   std::array<double, 3 * kUsualDimensions> usual{};
   std::vector<double> large(padded > kUsualDimensions ? 3 * padded : 0);
-  return table_.rate_hz *
-         summed_second_differences(table_.coefficients.row(source.first_frame).data(),
-                                   source.frame_count,
-                                   table_.coefficients.row(q.first_frame).data(), q.frame_count,
-                                   dimensions, padded, large.empty() ? usual.data() : large.data());
+  return summed_second_differences(
+      table_.coefficients.row(source.first_frame).data(), source.frame_count,
+      table_.coefficients.row(q.first_frame).data(), q.frame_count, dimensions, padded, limit,
+      large.empty() ? usual.data() : large.data());
+}
+
+double JoinCost::direct_smoothing_cost(NodeIndex from, NodeIndex target) const {
+  return table_.rate_hz * summed_smoothing(from, target, std::numeric_limits<double>::infinity());
+}
+
+double JoinCost::smoothing_up_to(double limit, NodeIndex from, NodeIndex to) const {
+  const NodeIndex before = table_.nodes[static_cast<std::size_t>(to)].predecessor;
+  const double scale = weights_.alpha2 * table_.rate_hz;
+  return scale == 0.0 ? 0.0 : scale * summed_smoothing(from, before, limit / scale);
 }
 
 double JoinCost::gaps(NodeIndex from, NodeIndex to) const {

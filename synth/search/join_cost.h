@@ -28,6 +28,9 @@ public:
   double gaps(NodeIndex from, NodeIndex to) const;
   double smoothing(NodeIndex from, NodeIndex to) const;
 
+  // smoothing() where that is at most `limit`; else something between the two.
+  double smoothing_up_to(double limit, NodeIndex from, NodeIndex to) const;
+
   // At most gaps(), by about 1e-5 of it, in a third of its time.
   double gaps_floor(NodeIndex from, NodeIndex to) const;
 
@@ -43,6 +46,8 @@ public:
   const MotionTable& table() const { return table_; }
 
 private:
+  double summed_smoothing(NodeIndex from, NodeIndex target, double limit) const;
+
   const MotionTable& table_;
   CostWeights weights_;
   BoundaryPoses poses_;

@@ -143,7 +143,8 @@ JoinFrontier::Best JoinFrontier::bound_join(NodeIndex node, Tightness tightness,
     const double gaps = kernels_.cost.gaps_floor(from, to) + other_viseme;
     if (worth_it(entry.value + gaps)) {
       ++counts.transitions;
-      consider(entry, kernels_.cost.smoothing(from, to) * kBelow + gaps);
+      const double room = std::min(best.value, limit) - entry.value - gaps;
+      consider(entry, kernels_.cost.smoothing_up_to(room, from, to) * kBelow + gaps);
     }
   };
   const NodeEnd end = side_ == Side::earlier ? NodeEnd::first : NodeEnd::last;

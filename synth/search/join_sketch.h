@@ -4,7 +4,6 @@
 #include "db/types/motion_table.h"
 #include "synth/search/search_types.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -46,14 +45,11 @@ public:
     return which == NodeEnd::first ? first_rank_ : last_rank_;
   }
 
-  // What a city-block distance, or one to a box, says for certain of alpha3 PGap + VGap.
-  double certain(float distance) const {
-    return std::max(0.0, static_cast<double>(distance) * (1.0 - kRelativeMargin) - margin_);
-  }
+  // A city-block distance, or one to a box, less 1e-5 of it and this much is certain to be at most
+  // alpha3 PGap + VGap.
+  double margin() const { return margin_; }
 
 private:
-  static constexpr double kRelativeMargin = 1e-5;
-
   std::vector<float> first_, last_; // #nodes by kFeatures
   std::vector<NodeIndex> first_order_, last_order_;
   std::vector<std::int32_t> first_rank_, last_rank_;

@@ -46,8 +46,9 @@ TEST(JoinBounds, are_never_above_the_gaps_they_bound) {
       for (NodeIndex j = 0; j < table.node_count(); ++j) {
         const double exact =
             weights.alpha3 * kernels.cost.position_gap(i, j) + kernels.cost.velocity_gap(i, j);
-        const double sketch = kernels.sketch.certain(city_block(
+        const auto distance = static_cast<double>(city_block(
             kernels.sketch.end(NodeEnd::last, i), kernels.sketch.end(NodeEnd::first, j)));
+        const double sketch = std::max(0.0, distance * (1.0 - 1e-5) - kernels.sketch.margin());
         const double clusters = kernels.bound.gaps(i, j);
         const double floor = kernels.cost.gaps_floor(i, j);
         for (const double bound : {sketch, clusters, floor}) {
