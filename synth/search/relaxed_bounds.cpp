@@ -36,7 +36,7 @@ JoinFrontier RelaxedRecursion::frontier(const StepBounds& neighbour,
 
 StepBounds RelaxedRecursion::border(const StepPenalties& penalties) const {
   StepBounds bounds;
-  bounds.active_penalty = most_active_penalty(penalties);
+  bounds.active_penalty = penalties.near();
   bounds.active = penalties.nodes_up_to(bounds.active_penalty);
   bounds.bound.assign(bounds.active.size(), 0.0);
   bounds.partner.assign(bounds.active.size(), kNoNode);
@@ -46,7 +46,7 @@ StepBounds RelaxedRecursion::border(const StepPenalties& penalties) const {
 StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBounds& neighbour,
                                   const StepPenalties& neighbour_penalties,
                                   JoinFrontier::Counts& counts) const {
-  const double most = most_active_penalty(penalties);
+  const double most = penalties.near();
   std::vector<NodeIndex> active = penalties.nodes_up_to(most);
   const std::vector<double> limits(active.size(), std::numeric_limits<double>::infinity());
   StepBounds bounds = bounds_of(std::move(active), limits, neighbour, neighbour_penalties, counts);
@@ -98,23 +98,26 @@ StepBounds RelaxedRecursion::bounds_of(std::vector<NodeIndex> active,
   return bounds;
 }
 
-double RelaxedRecursion::most_active_penalty(const StepPenalties& penalties) const {
-  constexpr double kNear = 2.0; // PNT
-  return penalties.least() + kNear * kernels_.cost.weights().pnt;
-}
-
-NodeIndex RelaxedRecursion::best_partner(NodeIndex node, const StepBounds& neighbour,
-                                         const StepPenalties& neighbour_penalties,
-                                         JoinFrontier::Counts& counts) const {
+NodeIndex RelaxedRecursion::partner(NodeIndex node, const StepBounds& own,
+                                    const StepBounds& neighbour,
+                                    const StepPenalties& neighbour_penalties,
+                                    JoinFrontier::Counts& counts) const {
+  const auto place = std::ranges::lower_bound(own.active, node);
+  if (place != own.active.end() && *place == node) {
+    const NodeIndex known = own.partner[static_cast<std::size_t>(place - own.active.begin())];
+    if (known != kNoNode && neighbour_penalties[known] < std::numeric_limits<double>::infinity()) {
+      return known;
+    }
+  }
   const std::array<NodeIndex, 1> nodes = {node};
   kernels_.bound.ensure(nodes);
   kernels_.bound.ensure(neighbour.active);
-  NodeIndex partner = kNoNode;
+  NodeIndex nearest = kNoNode;
   frontier(neighbour, neighbour_penalties)
       .bound_joins(
           {.nodes = nodes}, counts,
-          [&](std::size_t, NodeIndex, const JoinFrontier::Best& best) { partner = best.node; });
-  return partner;
+          [&](std::size_t, NodeIndex, const JoinFrontier::Best& best) { nearest = best.node; });
+  return nearest;
 }
 
 } // namespace phonomime

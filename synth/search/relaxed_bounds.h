@@ -63,13 +63,12 @@ public:
                        const StepBounds& neighbour, const StepPenalties& neighbour_penalties,
                        JoinFrontier::Counts& counts) const;
 
-  // The candidate of the neighbour's active ones with the least rough bound for a join with `node`.
-  NodeIndex best_partner(NodeIndex node, const StepBounds& neighbour,
-                         const StepPenalties& neighbour_penalties,
-                         JoinFrontier::Counts& counts) const;
+  // Whose join gave the bound of `node` in `own`, if that is known and not blocked; else the one of
+  // the neighbour's active nodes with the least rough bound for a join with it.
+  NodeIndex partner(NodeIndex node, const StepBounds& own, const StepBounds& neighbour,
+                    const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts) const;
 
 private:
-  double most_active_penalty(const StepPenalties& penalties) const;
   JoinFrontier frontier(const StepBounds& neighbour, const StepPenalties& penalties) const;
 
   JoinKernels& kernels_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/search_session.h"
 
+#include "synth/search/state_lattice.h"
 #include "synth/search/thread_count.h"
 
 #include <algorithm>
@@ -66,14 +67,16 @@ public:
     path[pivot_] = *std::ranges::min_element(at.active, {}, [&](NodeIndex node) {
       return so_far_[pivot_][node] + penalties_[pivot_][node] + at[node];
     });
+    const RelaxedRecursion before(kernels_, JoinFrontier::Side::earlier);
     for (std::size_t t = pivot_; t-- > 0;) {
-      path[t] = partner(JoinFrontier::Side::earlier, path[t + 1], so_far_[t + 1], so_far_[t], t);
+      path[t] = before.partner(path[t + 1], so_far_[t + 1], so_far_[t], penalties_[t], counts_);
     }
+    const RelaxedRecursion after(kernels_, JoinFrontier::Side::later);
     for (std::size_t t = pivot_ + 1; t < path.size(); ++t) {
-      path[t] = partner(JoinFrontier::Side::later, path[t - 1],
-                        t - 1 == pivot_ ? at : free_to_go_[t - 1], free_to_go_[t], t);
+      path[t] = after.partner(path[t - 1], t - 1 == pivot_ ? at : free_to_go_[t - 1],
+                              free_to_go_[t], penalties_[t], counts_);
     }
-    return cost_of_path(path);
+    return cost_of_path(kernels_, penalties_, path, counts_);
   }
 
   // Bounds of all that follows each step; before the pivot only for nodes that a path within the
@@ -91,28 +94,6 @@ public:
   }
 
 private:
-  NodeIndex partner(JoinFrontier::Side side, NodeIndex node, const StepBounds& own,
-                    const StepBounds& neighbour, std::size_t t) const {
-    const auto place = std::ranges::lower_bound(own.active, node);
-    const NodeIndex known = place == own.active.end() || *place != node
-                                ? kNoNode
-                                : own.partner[static_cast<std::size_t>(place - own.active.begin())];
-    if (known != kNoNode && penalties_[t][known] < kInfinity) {
-      return known;
-    }
-    return RelaxedRecursion(kernels_, side).best_partner(node, neighbour, penalties_[t], counts_);
-  }
-
-  double cost_of_path(std::span<const NodeIndex> path) const {
-    kernels_.ensure(path);
-    double cost = penalties_[0][path[0]];
-    for (std::size_t t = 1; t < path.size(); ++t) {
-      ++counts_.transitions;
-      cost = (cost + kernels_.cost.transition(path[t - 1], path[t])) + penalties_[t][path[t]];
-    }
-    return cost;
-  }
-
   StepBounds narrowed(std::size_t t, const StepBounds& next, double budget) const {
     const StepBounds& so_far = so_far_[t];
     const StepPenalties& penalties = penalties_[t];

@@ -2,7 +2,6 @@
 #include "synth/search/state_lattice.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace phonomime {
@@ -50,17 +49,10 @@ void ensure_nodes(const LatticeInput& input, const std::vector<Candidate>& candi
   input.kernels.ensure(nodes);
 }
 
-void append(StepStates& states, const Candidate& candidate, double cost, NodeIndex predecessor) {
-  states.nodes.push_back(candidate.node);
-  states.cost.push_back(cost);
-  states.penalty.push_back(candidate.penalty);
-  states.predecessor.push_back(predecessor);
-}
-
 StepStates first_states(const std::vector<Candidate>& candidates) {
   StepStates states;
   for (const Candidate& candidate : candidates) {
-    append(states, candidate, candidate.penalty, kNoNode);
+    states.append(candidate.node, candidate.penalty, {candidate.penalty, kNoNode});
   }
   return states;
 }
@@ -79,13 +71,24 @@ StepStates next_states(const LatticeInput& input, const StepStates& before,
   StepStates states;
   for (std::size_t j = 0; j < candidates.size(); ++j) {
     if (best[j].node != kNoNode) {
-      append(states, candidates[j], best[j].value, best[j].node);
+      states.append(candidates[j].node, candidates[j].penalty, best[j]);
     }
   }
   return states;
 }
 
 } // namespace
+
+void StepStates::append(NodeIndex node, double own_penalty, const JoinFrontier::Best& best) {
+  nodes.push_back(node);
+  cost.push_back(best.value);
+  penalty.push_back(own_penalty);
+  predecessor.push_back(best.node);
+}
+
+std::size_t StepStates::place_of(NodeIndex node) const {
+  return static_cast<std::size_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
+}
 
 Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Counts& counts) {
   Lattice lattice;
@@ -101,25 +104,13 @@ Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Co
   return lattice;
 }
 
-double cost_of_relaxed_path(const LatticeInput& input, JoinFrontier::Counts& counts) {
-  const std::vector<NodeIndex>& starts = input.to_go[0].active;
-  NodeIndex node = *std::ranges::min_element(starts, {}, [&](NodeIndex start) {
-    return input.penalties[0][start] + input.to_go[0][start];
-  });
-  double cost = input.penalties[0][node];
-  const RelaxedRecursion recursion(input.kernels, JoinFrontier::Side::later);
-  for (std::size_t t = 0; t + 1 < input.steps.size(); ++t) {
-    const std::vector<NodeIndex>& active = input.to_go[t].active;
-    const auto place = std::ranges::lower_bound(active, node) - active.begin();
-    NodeIndex next = input.to_go[t].partner[static_cast<std::size_t>(place)];
-    if (next == kNoNode) { // an inactive one has the least bound
-      next = recursion.best_partner(node, input.to_go[t + 1], input.penalties[t + 1], counts);
-    }
-    const std::array<NodeIndex, 2> join = {node, next};
-    input.kernels.ensure(join);
+double cost_of_path(JoinKernels& kernels, std::span<const StepPenalties> penalties,
+                    std::span<const NodeIndex> path, JoinFrontier::Counts& counts) {
+  kernels.ensure(path);
+  double cost = penalties[0][path[0]];
+  for (std::size_t t = 1; t < path.size(); ++t) {
     ++counts.transitions;
-    cost = (cost + input.kernels.cost.transition(node, next)) + input.penalties[t + 1][next];
-    node = next;
+    cost = (cost + kernels.cost.transition(path[t - 1], path[t])) + penalties[t][path[t]];
   }
   return cost;
 }
@@ -135,9 +126,7 @@ NodePath best_path(const LatticeInput& input, const Lattice& lattice) {
   NodeIndex node = lattice.back().nodes[static_cast<std::size_t>(place)];
   for (std::size_t t = length; t-- > 0;) {
     path.nodes[t] = node;
-    const std::vector<NodeIndex>& nodes = lattice[t].nodes;
-    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
-    node = lattice[t].predecessor[at];
+    node = lattice[t].predecessor[lattice[t].place_of(node)];
   }
   for (std::size_t t = 0; t < length; ++t) {
     const MotionNode& info =

@@ -17,6 +17,9 @@ struct StepStates {
   std::vector<double> cost;           // phi: least cost of a path that ends here
   std::vector<double> penalty;        // OC + EMP
   std::vector<NodeIndex> predecessor; // chi; kNoNode at the first step
+
+  void append(NodeIndex node, double own_penalty, const JoinFrontier::Best& best);
+  std::size_t place_of(NodeIndex node) const; // of one that is there
 };
 using Lattice = std::vector<StepStates>;
 
@@ -33,9 +36,9 @@ struct LatticeInput {
 // every path up to the budget.
 Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Counts& counts);
 
-// A real path, and with it an upper bound of the optimum: from the start of least bound along the
-// joins that the relaxed pass took. Near the optimum where the bounds are tight.
-double cost_of_relaxed_path(const LatticeInput& input, JoinFrontier::Counts& counts);
+// The exact cost of a path, summed as E4 is: an upper bound of the optimum.
+double cost_of_path(JoinKernels& kernels, std::span<const StepPenalties> penalties,
+                    std::span<const NodeIndex> path, JoinFrontier::Counts& counts);
 
 // The best path of a lattice: smallest cost, ties to the smallest last node. Steps' cost terms are
 // filled in.

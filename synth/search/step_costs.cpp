@@ -41,7 +41,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 StepPenalties::StepPenalties(const MotionTable& table, const NodeClasses& classes,
                              const SearchStep& step, const CostWeights& weights)
-    : classes_(classes), step_(step), least_(kInfinity) {
+    : classes_(classes), step_(step), least_(kInfinity), near_(kInfinity) {
   for (std::size_t c = 0; c < classes.size(); ++c) {
     const NodeIndex any = classes.nodes(c).front();
     by_class_.push_back(step_penalty(step, table.nodes[static_cast<std::size_t>(any)], weights));
@@ -62,6 +62,8 @@ StepPenalties::StepPenalties(const MotionTable& table, const NodeClasses& classe
   if (least_ == kInfinity) {
     throw InternalError({.what = "a step of the search has no node that is allowed"});
   }
+  constexpr double kNear = 2.0; // PNT
+  near_ = least_ + kNear * weights.pnt;
 }
 
 double StepPenalties::operator[](NodeIndex node) const {

@@ -31,6 +31,10 @@ public:
   double operator[](NodeIndex node) const;
   double least() const { return least_; } // of the nodes that are not blocked
 
+  // The most that a node near the least has: 2 PNT above it. Nodes further off are looked at only
+  // where bounds cannot exclude them.
+  double near() const { return near_; }
+
   // The nodes of a penalty up to `most`, ascending; all that are allowed where the step names them.
   std::vector<NodeIndex> nodes_up_to(double most) const;
   // At most the least penalty of any other node than nodes_up_to(most); infinite where none is
@@ -44,6 +48,7 @@ private:
   const SearchStep& step_;
   std::vector<double> by_class_;
   double least_;
+  double near_;
 };
 
 } // namespace phonomime

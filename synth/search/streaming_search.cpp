@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWidth =
-    256;                      // states of a step that are kept, and all that tie with the last
-constexpr double kNear = 2.0; // PNT above the least penalty: nodes that are looked at
+    256; // states of a step that are kept, and all that tie with the last
 
 // The cost of the state at place `count - 1` by cost; infinite where there are fewer.
 double cost_at(std::vector<double> costs, std::size_t count) {
@@ -28,28 +27,16 @@ double cost_at(std::vector<double> costs, std::size_t count) {
   return *place;
 }
 
-void append(StepStates& states, NodeIndex node, double penalty, const JoinFrontier::Best& best) {
-  states.nodes.push_back(node);
-  states.cost.push_back(best.value);
-  states.penalty.push_back(penalty);
-  states.predecessor.push_back(best.node);
-}
-
 // States for which keep(i) holds.
 template <typename Keep>
 StepStates filtered(const StepStates& states, const Keep& keep) {
   StepStates kept;
   for (std::size_t i = 0; i < states.nodes.size(); ++i) {
     if (keep(i)) {
-      append(kept, states.nodes[i], states.penalty[i], {states.cost[i], states.predecessor[i]});
+      kept.append(states.nodes[i], states.penalty[i], {states.cost[i], states.predecessor[i]});
     }
   }
   return kept;
-}
-
-std::size_t place_of(const StepStates& states, NodeIndex node) {
-  return static_cast<std::size_t>(std::ranges::lower_bound(states.nodes, node) -
-                                  states.nodes.begin());
 }
 
 } // namespace
@@ -68,9 +55,8 @@ StreamingSearch::StreamingSearch(ViterbiSearch& search, int look_ahead,
 StepStates StreamingSearch::first_states(const SearchStep& step) const {
   const StepPenalties penalties(space_.table, space_.classes, step, space_.weights);
   StepStates states;
-  for (const NodeIndex node :
-       penalties.nodes_up_to(penalties.least() + kNear * space_.weights.pnt)) {
-    append(states, node, penalties[node], {penalties[node], kNoNode});
+  for (const NodeIndex node : penalties.nodes_up_to(penalties.near())) {
+    states.append(node, penalties[node], {penalties[node], kNoNode});
   }
   const double most = cost_at(states.cost, kWidth);
   return filtered(states, [&](std::size_t i) { return states.cost[i] <= most; });
@@ -78,8 +64,7 @@ StepStates StreamingSearch::first_states(const SearchStep& step) const {
 
 StepStates StreamingSearch::next_states(const StepStates& before, const SearchStep& step) const {
   const StepPenalties penalties(space_.table, space_.classes, step, space_.weights);
-  const std::vector<NodeIndex> nodes =
-      penalties.nodes_up_to(penalties.least() + kNear * space_.weights.pnt);
+  const std::vector<NodeIndex> nodes = penalties.nodes_up_to(penalties.near());
   // Recorded successions cost nothing, and where they fill the width nothing dearer is needed.
   std::vector<double> recorded;
   for (std::size_t i = 0; i < before.nodes.size(); ++i) {
@@ -106,7 +91,7 @@ StepStates StreamingSearch::next_states(const StepStates& before, const SearchSt
   StepStates states;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (best[i].node != kNoNode && best[i].value <= most) {
-      append(states, nodes[i], penalties[nodes[i]], best[i]);
+      states.append(nodes[i], penalties[nodes[i]], best[i]);
     }
   }
   return states;
@@ -135,7 +120,7 @@ std::vector<NodeIndex> StreamingSearch::best_open_path() const {
       last.nodes[static_cast<std::size_t>(std::ranges::min_element(last.cost) - last.cost.begin())];
   for (std::size_t k = columns_.size() - 1; k > 0; --k) {
     const StepStates& states = columns_[k].states;
-    path[k - 1] = states.predecessor[place_of(states, path[k])];
+    path[k - 1] = states.predecessor[states.place_of(path[k])];
   }
   if (front_is_final_) {
     path.erase(path.begin());
