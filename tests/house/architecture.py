@@ -19,9 +19,11 @@ MAY_KNOW = {
     "synth/export": {"db/types", "synth/retarget"},
     "synth/pipeline": {"db/types", *(f"synth/{stage}" for stage in STAGES)},
     "tools/demo": {"db/types"},
-    "tools/app": {"db/types", "db/store", "db/import", "isomap", "synth/pipeline",
+    "tools/evaluate": {"db/types", "synth/search", "synth/concat", "synth/pipeline"},
+    "tools/app": {"db/types", "db/store", "db/import", "isomap", "synth/pipeline", "tools/evaluate",
                   *(f"synth/{stage}" for stage in STAGES)},
-    "tools/cli": {"db/types", "db/store", "db/import", "synth/pipeline", "tools/app"},
+    "tools/cli": {"db/types", "db/store", "db/import", "synth/pipeline", "tools/evaluate",
+                  "tools/app"},
     "tools/studio": {"db/types", "tools/app"},
 }
 
