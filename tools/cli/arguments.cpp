@@ -2,6 +2,7 @@
 #include "tools/cli/arguments.h"
 
 #include "db/types/errors.h"
+#include "tools/cli/call_words.h"
 #include "tools/cli/help.h"
 #include "tools/cli/words.h"
 
@@ -17,21 +18,6 @@
 namespace phonomime {
 
 namespace {
-
-// What the words of the call are put into before a verb's struct is made of them.
-struct Words {
-  Arguments arguments;
-  ImportArguments import;
-  InfoArguments info;
-  NodesArguments nodes;
-  SynthArguments synth;
-  StreamOptions stream; // but its synthesis
-  BatchOptions batch;   // but its synthesis
-  ExplainArguments explain;
-  bool only_suspect = false, only_pruned = false, only_gaps = false;
-  std::string head, silence = "linear", shard = "1/1";
-  bool no_rest = false, streams = false;
-};
 
 // A call's help as a page: CLI11's own shows its inner workings.
 class HelpFormatter : public CLI::FormatterBase {
@@ -86,13 +72,7 @@ private:
   }
 };
 
-void add_database(CLI::App* verb, std::filesystem::path& database, bool option) {
-  auto* added = option ? verb->add_option("--db", database, "The motion database")
-                       : verb->add_option("database", database, "The motion database");
-  added->required()->type_name("DB");
-}
-
-void add_import(CLI::App& app, Words& words) {
+void add_import(CLI::App& app, CallWords& words) {
   ImportOptions& options = words.import.options;
   CLI::App* verb = app.add_subcommand("import", "Put a corpus folder into a motion database");
   verb->footer("Example:\n  phonomime import recordings/ann --db ann.db\n\n"
@@ -132,13 +112,13 @@ void add_import(CLI::App& app, Words& words) {
       ->type_name("N");
 }
 
-void add_info(CLI::App& app, Words& words) {
+void add_info(CLI::App& app, CallWords& words) {
   CLI::App* verb = app.add_subcommand("info", "What a motion database holds");
   verb->footer("Example:\n  phonomime info ann.db");
   add_database(verb, words.info.database, false);
 }
 
-void add_nodes(CLI::App& app, Words& words) {
+void add_nodes(CLI::App& app, CallWords& words) {
   NodeFilter& filter = words.nodes.filter;
   CLI::App* verb =
       app.add_subcommand("nodes", "List motion nodes: the recorded phonemes of a database");
@@ -161,122 +141,7 @@ void add_nodes(CLI::App& app, Words& words) {
       ->type_name("N");
 }
 
-void add_synth_inputs(CLI::App* verb, SynthOptions& options) {
-  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
-      ->type_name("NAME");
-  verb->add_option("--emotion", options.emotion, "One emotion throughout (default: neutral)")
-      ->type_name("NAME[:INTENSITY]");
-  verb->add_option("--emotions", options.emotions,
-                   "Emotion track: a text file of lines START END EMOTION")
-      ->type_name("TRACK");
-  verb->add_option("--constraints", options.constraints,
-                   "Constraint file: which nodes to use or to avoid, and where")
-      ->type_name("FILE");
-  verb->add_option("--weights", options.weights, "Cost weights of the search (JSON)")
-      ->type_name("FILE");
-  verb->add_option("--phoneme-set", options.phoneme_set,
-                   "The transcript's alphabet: festival_us, arpabet, timit or a .json file "
-                   "(default: the first that knows every symbol)")
-      ->type_name("SET");
-  verb->add_option("--tier", options.tier, "The phone tier of a TextGrid (default: found by name)")
-      ->type_name("NAME");
-  verb->add_option("--audio", options.audio, "Sound for the player")->type_name("WAV");
-  verb->add_option("--face", options.face,
-                   "Mesh (.obj, .glb) or the folder with it; needed for .glb and .html")
-      ->type_name("FACE");
-}
-
-// All that makes motion of a transcript, for every verb that does.
-void add_synth_options(CLI::App* verb, Words& words) {
-  SynthOptions& options = words.synth.options;
-  add_synth_inputs(verb, options);
-  verb->add_option("--fps", options.fps, "Output frames a second, 1 to 1000")
-      ->type_name("N")
-      ->capture_default_str();
-  verb->add_option("--head", words.head,
-                   "A constant head pose, also put back into marker CSV, in degrees and mm "
-                   "(default: the head rests)")
-      ->type_name("YAW,PITCH,ROLL[,X,Y,Z]");
-  verb->add_option("--silence", words.silence, "How inner silence is filled: linear, cosine, cubic")
-      ->type_name("FILL")
-      ->capture_default_str();
-  verb->add_flag("--no-rest", words.no_rest,
-                 "Hold the first and the last pose through silence at the ends, instead of the "
-                 "face at rest");
-  verb->add_option("--smoothing", options.smoothing_half_window,
-                   "Frames on either side of a join that are smoothed, 0 to 100")
-      ->type_name("N")
-      ->capture_default_str();
-  verb->add_option("--runners-up", options.runners_up, "Runners-up for each phoneme, 0 to 100")
-      ->type_name("N")
-      ->capture_default_str();
-  verb->add_option("--threads", options.threads,
-                   "Threads to work with (default: one for each core)")
-      ->type_name("N");
-}
-
-void add_synth(CLI::App& app, Words& words) {
-  CLI::App* verb = app.add_subcommand("synth", "A transcript in, a talking face out");
-  verb->footer("Example:\n  phonomime synth --db ann.db hello.lab --emotions hello.emotions \\\n"
-               "      --constraints hello.constraints --audio hello.wav --face head.glb \\\n"
-               "      -o hello.html -o hello.glb -o hello.csv\n\n"
-               "corpora_schema/ describes every file; corpora_schema/transcript.md also what a\n"
-               "stream takes.");
-  SynthOptions& options = words.synth.options;
-  add_database(verb, options.database, true);
-  CLI::Option* transcript =
-      verb->add_option("transcript", options.transcript,
-                       "Phonemes with times: .lab (Festival, HTK) or .TextGrid")
-          ->required()
-          ->type_name("TRANSCRIPT");
-  verb->add_option(
-          "-o,--output", options.outputs,
-          "Outputs; the suffix says what: .csv (marker or Live Link motion), .glb (animated "
-          "mesh), .html (player), .json (the result), .txt (the explanation)")
-      ->type_name("FILE...");
-  add_synth_options(verb, words);
-  CLI::Option* stream = verb->add_flag_callback(
-      "--stream",
-      [transcript, &words] {
-        transcript->required(false);
-        words.streams = true;
-      },
-      "Instead of TRANSCRIPT: read lines START END LABEL [EMOTION] from standard input as they "
-      "come, and write frames as CSV to standard output as they become final");
-  verb->add_option("--look-ahead", words.stream.look_ahead,
-                   "With --stream: phonemes that are known beyond one before its motion is final, "
-                   "0 to 1000")
-      ->type_name("N")
-      ->capture_default_str()
-      ->needs(stream);
-  verb->add_flag("--compare", words.stream.compare,
-                 "With --stream: at the end, say how far from the optimum it was")
-      ->needs(stream);
-}
-
-void add_batch(CLI::App& app, Words& words) {
-  CLI::App* verb = app.add_subcommand("batch", "Many transcripts in, a face that says each out");
-  verb->footer(
-      "Example:\n  phonomime batch lines.tsv --db ann.db --face head.glb -o 'out/{id}.glb'\n\n"
-      "Options hold for the rows whose own cell is empty. Rows that are done and\n"
-      "unchanged are skipped. corpora_schema/manifest.md describes the manifest,\n"
-      "docs/batch.md how to spread a batch over machines.");
-  verb->add_option("manifest", words.batch.manifest,
-                   "Table of transcripts and what to make of them, separated by tabs")
-      ->required()
-      ->type_name("MANIFEST");
-  add_database(verb, words.synth.options.database, true);
-  verb->add_option("-o,--output", words.synth.options.outputs,
-                   "Outputs of every row whose cell names none; {id} stands for the row's id; the "
-                   "suffix says what, as for synth")
-      ->type_name("FILE...");
-  add_synth_options(verb, words);
-  verb->add_option("--shard", words.shard, "Only the Ith of N parts of the batch")
-      ->type_name("I/N");
-  verb->add_flag("--redo", words.batch.redo, "Rows that are done, too");
-}
-
-void add_explain(CLI::App& app, Words& words) {
+void add_explain(CLI::App& app, CallWords& words) {
   CLI::App* verb = app.add_subcommand("explain", "A synthesis result as a table people read");
   verb->footer("Example:\n  phonomime synth --db ann.db hello.lab -o hello.json\n"
                "  phonomime explain hello.json");
@@ -315,8 +180,14 @@ std::vector<std::string> verb_names(const CLI::App& app) {
 
 } // namespace
 
+void add_database(CLI::App* verb, std::filesystem::path& database, bool option) {
+  auto* added = option ? verb->add_option("--db", database, "The motion database")
+                       : verb->add_option("database", database, "The motion database");
+  added->required()->type_name("DB");
+}
+
 Arguments parse_arguments(int argc, const char* const* argv) {
-  Words words;
+  CallWords words;
   CLI::App app("Expressive speech animation from recorded facial motion", "phonomime");
   app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "tools/cli/arguments.h"
+
+#include <filesystem>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace phonomime {
+
+// What the words of the call are put into before a verb's struct is made of them.
+struct CallWords {
+  Arguments arguments;
+  ImportArguments import;
+  InfoArguments info;
+  NodesArguments nodes;
+  SynthArguments synth;
+  StreamOptions stream; // but its synthesis
+  BatchOptions batch;   // but its synthesis
+  ExplainArguments explain;
+  bool only_suspect = false, only_pruned = false, only_gaps = false;
+  std::string head, silence = "linear", shard = "1/1";
+  bool no_rest = false, streams = false;
+};
+
+// Each adds a verb, or options of one, to what the program understands.
+
+// DB as an option --db or as a word of its own.
+void add_database(CLI::App* verb, std::filesystem::path& database, bool option);
+
+void add_synth(CLI::App& app, CallWords& words);
+void add_batch(CLI::App& app, CallWords& words);
+
+} // namespace phonomime
