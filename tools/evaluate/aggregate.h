@@ -4,9 +4,11 @@
 #include "db/types/layout.h"
 #include "tools/evaluate/measures.h"
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -82,7 +84,12 @@ struct Evaluation {
 // hold other sentences, InputError where there is none.
 void aggregate(Evaluation& evaluation);
 
-// The summary of sentences' values, for sizes and folds too.
+// The parts of aggregate() for other sets of sentences, those of a size or of a fold: what the
+// recordings say of contacts, the judgement by it (it replaces an earlier one), the summary.
+std::map<std::string, ContactRange>
+recorded_contact_ranges(std::span<const SentenceMeasures> sentences);
+void judge_contacts(std::span<SentenceMeasures> sentences,
+                    const std::map<std::string, ContactRange>& ranges);
 std::array<Summary, kMeasureCount> summarise(std::span<const SentenceMeasures> sentences);
 
 // Index into methods of Evaluation::main_method. Throws InternalError where there is none.

@@ -49,7 +49,8 @@ struct ContactRange {
   bool holds(double aperture_mm) const { return aperture_mm >= low_mm && aperture_mm <= high_mm; }
 };
 
-// By phoneme, over the events whose demand is contact.
+// By phoneme, over the events whose demand is contact; a phoneme with fewer rows has none.
+inline constexpr std::size_t kLeastContactRows = 10;
 std::map<std::string, ContactRange> contact_ranges(std::span<const LipEvent> events);
 
 } // namespace phonomime

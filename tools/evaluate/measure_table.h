@@ -62,8 +62,7 @@ struct MeasureInfo {
 };
 const MeasureInfo& info(Measure measure);
 
-// Where a unit speaks of millimetres and the layout holds weights, which have none: "weight" for
-// "mm", "weight^2/..." and so on.
+// The unit in a layout of that kind: weights have no millimetres, "mm/s" is "1/s" there.
 std::string_view unit_of(Measure measure, LayoutKind kind);
 
 // The measure of an id, or nothing.

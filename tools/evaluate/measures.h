@@ -16,7 +16,7 @@
 
 namespace phonomime {
 
-// A place where one motion node follows another.
+// A place where one motion node follows another, with no silence between.
 struct JoinPlace {
   std::int64_t frame = 0; // first frame of the later node
   bool captured = false;  // the two were recorded one after the other
