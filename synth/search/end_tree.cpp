@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace phonomime {
@@ -22,56 +21,84 @@ inline void make_absolute(FloatLanes& lanes) {
   }
 }
 
-// City-block distances of eight points from one, feature f in sum f mod 4.
-PHONOMIME_DISPATCHED
-void distances_to_points(const float* point, const float* points, float* distances) {
-  FloatLanes sums[4] = {};
-  for (std::size_t f = 0; f < kFeatureCount; f += 4) {
-    for (std::size_t s = 0; s < 4; ++s) {
-      FloatLanes other;
-      load(other, points + (f + s) * kFloatLanes);
-      FloatLanes difference = other - point[f + s];
-      make_absolute(difference);
-      sums[s] += difference;
-    }
-  }
-  const FloatLanes total = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  std::memcpy(distances, &total, sizeof total);
-}
+// What a query asks of eight children, beside their places.
+struct ChildQuery {
+  const float* point;
+  std::int32_t viseme;
+  float other_viseme;
+  float margin;
+  float most; // bounds above need not be tight
+};
 
-// The same to the nearest points of eight boxes.
-PHONOMIME_DISPATCHED
-void distances_to_boxes(const float* point, const float* low, const float* high, float* distances) {
-  FloatLanes sums[4] = {};
-  for (std::size_t f = 0; f < kFeatureCount; f += 4) {
-    for (std::size_t s = 0; s < 4; ++s) {
-      FloatLanes from, to;
-      load(from, low + (f + s) * kFloatLanes);
-      load(to, high + (f + s) * kFloatLanes);
-      const float x = point[f + s];
-      for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-        from[lane] = std::max(from[lane] - x, 0.0f);
-        to[lane] = std::max(x - to[lane], 0.0f);
-      }
-      sums[s] += from + to;
-    }
-  }
-  const FloatLanes total = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  std::memcpy(distances, &total, sizeof total);
-}
-
-// Bounds from distances: value + what the distance says for certain + `other_viseme` where neither
-// `viseme` nor a mixture is meant, less the rounding of these sums.
-PHONOMIME_DISPATCHED
-void bounds_from_distances(const float* distances, const float* value, const std::int32_t* visemes,
-                           std::int32_t viseme, float other_viseme, float margin, float* bounds) {
+// Bounds from city-block distances: value + what the distance says for certain + `other_viseme`
+// where neither `viseme` nor a mixture is meant, less the rounding of these sums.
+inline void bounds_from_distances(const FloatLanes& distances, const ChildQuery& query,
+                                  const float* value, const std::int32_t* visemes, float* bounds) {
   constexpr float kCertain = 1.0f - 1e-5f;
   constexpr float kBelow = 1.0f - 4e-7f;
   for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-    const bool same = visemes[lane] == viseme || visemes[lane] == kMixed;
-    const float join = std::max(distances[lane] * kCertain - margin, 0.0f);
-    bounds[lane] = (value[lane] + (join + (same ? 0.0f : other_viseme))) * kBelow;
+    const bool same = visemes[lane] == query.viseme || visemes[lane] == kMixed;
+    const float join = std::max(distances[lane] * kCertain - query.margin, 0.0f);
+    bounds[lane] = (value[lane] + (join + (same ? 0.0f : query.other_viseme))) * kBelow;
   }
+}
+
+inline bool all_above(const float* bounds, float most) {
+  bool above = true;
+  for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
+    above &= bounds[lane] > most;
+  }
+  return above;
+}
+
+// Adds up add_feature(f, sum) over the features, f in sum f mod 4; where half of them leave no
+// child within query.most, the other half is not looked at.
+template <typename AddFeature>
+inline void bound_eight(const ChildQuery& query, const float* value, const std::int32_t* visemes,
+                        float* bounds, const AddFeature& add_feature) {
+  FloatLanes sums[4] = {};
+  for (std::size_t half = 0; half < 2; ++half) {
+    const std::size_t begin = half * kFeatureCount / 2;
+    for (std::size_t f = begin; f < begin + kFeatureCount / 2; f += 4) {
+      for (std::size_t s = 0; s < 4; ++s) {
+        add_feature(f + s, sums[s]);
+      }
+    }
+    const FloatLanes total = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    bounds_from_distances(total, query, value, visemes, bounds);
+    if (all_above(bounds, query.most)) {
+      return;
+    }
+  }
+}
+
+PHONOMIME_DISPATCHED
+void bound_points(const ChildQuery& query, const float* points, const float* value,
+                  const std::int32_t* visemes, float* bounds) {
+  bound_eight(query, value, visemes, bounds, [&](std::size_t f, FloatLanes& sum) {
+    FloatLanes other;
+    load(other, points + f * kFloatLanes);
+    FloatLanes difference = other - query.point[f];
+    make_absolute(difference);
+    sum += difference;
+  });
+}
+
+// The same to the nearest points of boxes.
+PHONOMIME_DISPATCHED
+void bound_boxes(const ChildQuery& query, const float* low, const float* high, const float* value,
+                 const std::int32_t* visemes, float* bounds) {
+  bound_eight(query, value, visemes, bounds, [&](std::size_t f, FloatLanes& sum) {
+    FloatLanes from, to;
+    load(from, low + f * kFloatLanes);
+    load(to, high + f * kFloatLanes);
+    const float x = query.point[f];
+    for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
+      from[lane] = std::max(from[lane] - x, 0.0f);
+      to[lane] = std::max(x - to[lane], 0.0f);
+    }
+    sum += from + to;
+  });
 }
 
 } // namespace
@@ -137,18 +164,19 @@ EndTree::Level EndTree::boxes(const Level& below, bool below_is_points) {
   return level;
 }
 
-void EndTree::bound_children(const Query& query, std::size_t level, std::size_t group,
+void EndTree::bound_children(const Query& query, double most, std::size_t level, std::size_t group,
                              std::array<float, kFan>& bounds) const {
   const Level& own = levels_[level];
   const std::size_t place = group * kFeatures * kFan;
-  std::array<float, kFan> distances;
+  const ChildQuery asked{query.end, query.viseme, query.other_viseme, query.margin,
+                         float_above(most)};
+  const float* value = &own.value[group * kFan];
+  const std::int32_t* visemes = &own.viseme[group * kFan];
   if (level == 0) {
-    distances_to_points(query.end, &own.low[place], distances.data());
+    bound_points(asked, &own.low[place], value, visemes, bounds.data());
   } else {
-    distances_to_boxes(query.end, &own.low[place], &own.high[place], distances.data());
+    bound_boxes(asked, &own.low[place], &own.high[place], value, visemes, bounds.data());
   }
-  bounds_from_distances(distances.data(), &own.value[group * kFan], &own.viseme[group * kFan],
-                        query.viseme, query.other_viseme, query.margin, bounds.data());
 }
 
 } // namespace phonomime

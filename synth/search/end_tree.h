@@ -38,10 +38,10 @@ public:
   EndTree(const JoinSketch& sketch, const MotionTable& table, NodeEnd which,
           std::span<const Entry> entries);
 
-  // Calls visit(entry index, its join viseme) for every entry whose bound is within limit(), in an
-  // order that lowers the limit soon; limit() may fall from call to call. The bound is never above
-  // value + gaps (E7) of the join with `end`, + `other_viseme` where the entry's join viseme is not
-  // `viseme`. Returns how many bounds it has computed.
+  // Calls visit(entry index, its join viseme, its bound) for every entry whose bound is within
+  // limit(), in an order that lowers the limit soon; limit() may fall from call to call. The bound
+  // is never above value + gaps (E7) of the join with `end`, + `other_viseme` where the entry's
+  // join viseme is not `viseme`. Returns how many bounds it has computed.
   template <typename Limit, typename Visit>
   std::int64_t search(const float* end, std::int32_t viseme, double other_viseme,
                       const Limit& limit, const Visit& visit) const {
@@ -72,15 +72,15 @@ private:
 
   Level points(const MotionTable& table, NodeEnd which, std::span<const Entry> entries) const;
   static Level boxes(const Level& below, bool below_is_points);
-  // Bounds of the eight children of a group.
-  void bound_children(const Query& query, std::size_t level, std::size_t group,
+  // Bounds of the eight children of a group, less tight where all are above `most`.
+  void bound_children(const Query& query, double most, std::size_t level, std::size_t group,
                       std::array<float, kFan>& bounds) const;
 
   template <typename Limit, typename Visit>
   std::int64_t descend(const Query& query, std::size_t level, std::size_t group, const Limit& limit,
                        const Visit& visit) const {
     std::array<float, kFan> bounds;
-    bound_children(query, level, group, bounds);
+    bound_children(query, limit(), level, group, bounds);
     std::int64_t computed = kFan;
     for (std::size_t taken = 0; taken < kFan; ++taken) {
       std::size_t nearest = 0;
@@ -91,7 +91,8 @@ private:
         break;
       }
       if (level == 0) {
-        visit(group * kFan + nearest, levels_[0].viseme[group * kFan + nearest]);
+        visit(group * kFan + nearest, levels_[0].viseme[group * kFan + nearest],
+              static_cast<double>(bounds[nearest]));
       } else {
         computed += descend(query, level - 1, group * kFan + nearest, limit, visit);
       }

@@ -33,17 +33,22 @@ FrameMatrixD cluster_rows(const MotionTable& table, double scale) {
   return rows;
 }
 
-// The sum over clusters of the norm of the difference, of poses and of velocities.
+// The sum over clusters of the norm of the difference, of poses and, where those are not enough, of
+// velocities.
 template <std::size_t kAxes>
-inline float summed_end_norms(const float* a, const float* b) {
+inline float summed_end_norms(const float* a, const float* b, float enough) {
   constexpr std::size_t kVelocity = kAxes * kClusterStride;
-  return summed_norms<FloatLanes, kFloatLanes, kAxes>(a, b, kClusterStride) +
+  const float poses = summed_norms<FloatLanes, kFloatLanes, kAxes>(a, b, kClusterStride);
+  if (poses > enough) {
+    return poses;
+  }
+  return poses +
          summed_norms<FloatLanes, kFloatLanes, kAxes>(a + kVelocity, b + kVelocity, kClusterStride);
 }
 
 PHONOMIME_DISPATCHED
-float summed_cluster_norms(const float* a, const float* b, int axes) {
-  return axes == 3 ? summed_end_norms<3>(a, b) : summed_end_norms<1>(a, b);
+float summed_cluster_norms(const float* a, const float* b, int axes, float enough) {
+  return axes == 3 ? summed_end_norms<3>(a, b, enough) : summed_end_norms<1>(a, b, enough);
 }
 
 } // namespace
@@ -62,10 +67,12 @@ void JoinBound::ensure(std::span<const NodeIndex> nodes) {
   });
 }
 
-double JoinBound::gaps(NodeIndex from, NodeIndex to) const {
+double JoinBound::gaps(NodeIndex from, NodeIndex to, double enough) const {
+  constexpr double kCertain = 1.0 - kRelativeMargin;
   const float* last = records_[from] + features_.end_floats();
-  const auto sum = static_cast<double>(summed_cluster_norms(last, records_[to], axes_));
-  return std::max(0.0, sum * (1.0 - kRelativeMargin) - margin_);
+  const auto most = static_cast<float>((enough + margin_) / kCertain);
+  const auto sum = static_cast<double>(summed_cluster_norms(last, records_[to], axes_, most));
+  return std::max(0.0, sum * kCertain - margin_);
 }
 
 } // namespace phonomime

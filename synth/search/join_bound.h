@@ -20,8 +20,9 @@ public:
   // Must have been called for both nodes of a pair before its bound is asked for.
   void ensure(std::span<const NodeIndex> nodes);
 
-  // At most alpha3 PGap + VGap of the join from `from` to `to`; never negative.
-  double gaps(NodeIndex from, NodeIndex to) const;
+  // At most alpha3 PGap + VGap of the join from `from` to `to`; never negative. Less tight where it
+  // is above `enough`.
+  double gaps(NodeIndex from, NodeIndex to, double enough) const;
 
 private:
   int axes_;

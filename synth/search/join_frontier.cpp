@@ -78,10 +78,10 @@ void JoinFrontier::visit_joins(NodeIndex node, Counts& counts, const Limit& limi
   const NodeEnd end = side_ == Side::earlier ? NodeEnd::first : NodeEnd::last;
   const std::int32_t viseme = join_viseme(table(), end, node);
   counts.bounds += tree_.search(kernels_.sketch.end(end, node), viseme, weights.pnt, limit,
-                                [&](std::size_t place, std::int32_t candidate_viseme) {
+                                [&](std::size_t place, std::int32_t own_viseme, double bound) {
                                   const EndTree::Entry& entry = candidates_[place];
                                   if (entry.node != partner) {
-                                    join(entry, candidate_viseme == viseme ? 0.0 : weights.pnt);
+                                    join(entry, own_viseme == viseme ? 0.0 : weights.pnt, bound);
                                   }
                                 });
 }
@@ -106,9 +106,10 @@ JoinFrontier::Best JoinFrontier::best_join(NodeIndex node, double penalty, doubl
     return (most - penalty) + 1e-12 * (std::abs(most) + penalty);
   };
   visit_joins(node, counts, tree_limit, consider,
-              [&](const EndTree::Entry& entry, double other_viseme) {
+              [&](const EndTree::Entry& entry, double other_viseme, double) {
                 const auto [from, to] = in_time(entry.node, node);
-                if (!worth_it(total(entry, kernels_.bound.gaps(from, to) + other_viseme)) ||
+                const double enough = tree_limit() - entry.value - other_viseme;
+                if (!worth_it(total(entry, kernels_.bound.gaps(from, to, enough) + other_viseme)) ||
                     !worth_it(total(entry, kernels_.cost.gaps_floor(from, to) + other_viseme))) {
                   return;
                 }
@@ -125,31 +126,28 @@ JoinFrontier::Best JoinFrontier::best_join(NodeIndex node, double penalty, doubl
 JoinFrontier::Best JoinFrontier::bound_join(NodeIndex node, Tightness tightness, double limit,
                                             NodeIndex hint, Counts& counts) const {
   Best best;
-  const auto worth_it = [&](double value) { return value <= std::min(best.value, limit); };
-  const auto consider = [&](const EndTree::Entry& entry, double transition) {
-    const double value = entry.value + transition;
-    if (worth_it(value)) {
+  const auto most = [&] { return std::min(best.value, limit); };
+  const auto consider = [&](const EndTree::Entry& entry, double value) {
+    if (value <= most()) {
       best = {value, entry.node};
     }
-    return false;
   };
   const auto consider_join = [&](const EndTree::Entry& entry, double other_viseme) {
     const auto [from, to] = in_time(entry.node, node);
-    const double rough = kernels_.bound.gaps(from, to) + other_viseme;
-    if (tightness == Tightness::rough || !worth_it(entry.value + rough)) {
-      consider(entry, rough);
+    const double room = most() - entry.value - other_viseme;
+    if (kernels_.bound.gaps(from, to, room) > room) {
       return;
     }
-    const double gaps = kernels_.cost.gaps_floor(from, to) + other_viseme;
-    if (worth_it(entry.value + gaps)) {
+    const double gaps = kernels_.cost.gaps_floor(from, to);
+    if (gaps <= room) {
       ++counts.transitions;
-      const double room = std::min(best.value, limit) - entry.value - gaps;
-      consider(entry, kernels_.cost.smoothing_up_to(room, from, to) * kBelow + gaps);
+      const double smoothing = kernels_.cost.smoothing_up_to(room - gaps, from, to) * kBelow;
+      consider(entry, entry.value + (smoothing + gaps + other_viseme));
     }
   };
   const NodeEnd end = side_ == Side::earlier ? NodeEnd::first : NodeEnd::last;
-  const bool try_hint = hint != kNoNode && hint != captured_partner(node) &&
-                        join_viseme(table(), end, node) >= 0 &&
+  const bool try_hint = tightness == Tightness::tight && hint != kNoNode &&
+                        hint != captured_partner(node) && join_viseme(table(), end, node) >= 0 &&
                         join_viseme(table(), candidate_end(side_), hint) >= 0;
   if (try_hint) {
     const bool same =
@@ -157,9 +155,15 @@ JoinFrontier::Best JoinFrontier::bound_join(NodeIndex node, Tightness tightness,
     consider_join(*find(hint), same ? 0.0 : kernels_.cost.weights().pnt);
   }
   visit_joins(
-      node, counts, [&] { return std::min(best.value, limit); }, consider,
-      [&](const EndTree::Entry& entry, double other_viseme) {
-        if (!try_hint || entry.node != hint) {
+      node, counts, most,
+      [&](const EndTree::Entry& entry, double transition) {
+        consider(entry, entry.value + transition);
+        return false; // later ones are not less
+      },
+      [&](const EndTree::Entry& entry, double other_viseme, double bound) {
+        if (tightness == Tightness::rough) {
+          consider(entry, bound);
+        } else if (!try_hint || entry.node != hint) {
           consider_join(entry, other_viseme);
         }
       });

@@ -70,7 +70,7 @@ public:
   Best best_join(NodeIndex node, double penalty, double limit, Counts& counts) const;
 
   enum class Tightness {
-    rough, // by cluster norms: some per cent below
+    rough, // by sketches: about a quarter below
     tight  // by the gaps of E7 and the direct smoothing cost: 1e-5 below
   };
   // What bound_joins() is to look at.
@@ -80,8 +80,8 @@ public:
     std::span<const double> limits; // one a node, or none at all: nothing above is found
   };
   // For every node i a lower bound of the least value + TC for a join with it, with the candidate
-  // that has it: calls found(i, node, best) over threads. Rough bounds do not ask for the nodes'
-  // full poses.
+  // that has it: calls found(i, node, best) over threads. Rough bounds ask for nothing that
+  // JoinKernels::ensure() makes.
   template <typename Found>
   void bound_joins(const BoundOptions& options, Counts& counts, const Found& found) const;
 
@@ -89,8 +89,8 @@ public:
 
 private:
   // Calls known(candidate, TC) where rule 1 or 4 says what a join with `node` costs, cheapest first
-  // until it returns false, then join(candidate, penalty of rule 3) for every other candidate whose
-  // value + TC may be within limit().
+  // until it returns false, then join(candidate, penalty of rule 3, bound) for every other
+  // candidate whose value + TC, at least `bound`, may be within limit().
   template <typename Limit, typename Known, typename Join>
   void visit_joins(NodeIndex node, Counts& counts, const Limit& limit, const Known& known,
                    const Join& join) const;

@@ -63,11 +63,9 @@ StepBounds RelaxedRecursion::bounds_of(std::vector<NodeIndex> active,
   bounds.bound.resize(bounds.active.size());
   bounds.partner.assign(bounds.active.size(), kNoNode);
   const bool many = std::max(bounds.active.size(), neighbour.active.size()) > kManyNodes;
-  kernels_.bound.ensure(bounds.active);
-  kernels_.bound.ensure(neighbour.active);
   if (!many) {
-    kernels_.cost.ensure(bounds.active);
-    kernels_.cost.ensure(neighbour.active);
+    kernels_.ensure(bounds.active);
+    kernels_.ensure(neighbour.active);
   }
   const JoinFrontier ahead = frontier(neighbour, neighbour_penalties);
   const double least_inactive =
@@ -110,8 +108,6 @@ NodeIndex RelaxedRecursion::partner(NodeIndex node, const StepBounds& own,
     }
   }
   const std::array<NodeIndex, 1> nodes = {node};
-  kernels_.bound.ensure(nodes);
-  kernels_.bound.ensure(neighbour.active);
   NodeIndex nearest = kNoNode;
   frontier(neighbour, neighbour_penalties)
       .bound_joins(

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,8 @@ namespace {
 
 using test::all_nodes;
 using test::Draw;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 MotionTable drawn_table(std::uint64_t seed, Draw& draw) {
   test::TableShape shape;
@@ -49,7 +52,11 @@ TEST(JoinBounds, are_never_above_the_gaps_they_bound) {
         const auto distance = static_cast<double>(city_block(
             kernels.sketch.end(NodeEnd::last, i), kernels.sketch.end(NodeEnd::first, j)));
         const double sketch = std::max(0.0, distance * (1.0 - 1e-5) - kernels.sketch.margin());
-        const double clusters = kernels.bound.gaps(i, j);
+        const double clusters = kernels.bound.gaps(i, j, kInfinity);
+        const double enough = clusters * 2.0 * draw.unit();
+        const double hasty = kernels.bound.gaps(i, j, enough);
+        ASSERT_TRUE(hasty == clusters || hasty > enough * (1.0 - 1e-6));
+        ASSERT_LE(hasty, clusters);
         const double floor = kernels.cost.gaps_floor(i, j);
         for (const double bound : {sketch, clusters, floor}) {
           ASSERT_GE(bound, 0.0);
@@ -90,11 +97,14 @@ TEST(EndTree, shows_every_entry_that_may_be_within_the_limit) {
       const std::int32_t viseme = join_viseme(table, other, node);
       const double limit = 3000.0 * draw.unit();
       std::vector<int> shown(entries.size(), 0);
+      std::vector<double> bounds(entries.size(), 0.0);
       tree.search(
           kernels.sketch.end(other, node), viseme, weights.pnt, [&] { return limit; },
-          [&](std::size_t place, std::int32_t entry_viseme) {
+          [&](std::size_t place, std::int32_t entry_viseme, double bound) {
             ++shown[place];
             EXPECT_EQ(entry_viseme, join_viseme(table, which, entries[place].node));
+            EXPECT_LE(bound, limit);
+            bounds[place] = bound;
           });
       for (std::size_t i = 0; i < entries.size(); ++i) {
         const NodeIndex from = which == NodeEnd::last ? entries[i].node : node;
@@ -102,6 +112,7 @@ TEST(EndTree, shows_every_entry_that_may_be_within_the_limit) {
         const double penalty =
             join_viseme(table, which, entries[i].node) == viseme ? 0.0 : weights.pnt;
         const double exact = entries[i].value + (kernels.cost.gaps(from, to) + penalty);
+        ASSERT_LE(bounds[i], exact);
         ASSERT_LE(shown[i], 1);
         ASSERT_TRUE(shown[i] == 1 || exact > limit) << node << " and entry " << i;
       }
@@ -113,8 +124,8 @@ TEST(EndTree, an_empty_one_shows_nothing) {
   const EndTree tree;
   std::vector<float> end(JoinSketch::kFeatures, 0.0f);
   tree.search(
-      end.data(), 0, 1.0, [] { return std::numeric_limits<double>::infinity(); },
-      [](std::size_t, std::int32_t) { FAIL() << "there is no entry"; });
+      end.data(), 0, 1.0, [] { return kInfinity; },
+      [](std::size_t, std::int32_t, double) { FAIL() << "there is no entry"; });
 }
 
 TEST(EndTree, looks_at_few_boxes_where_the_limit_is_small) {
@@ -135,7 +146,7 @@ TEST(EndTree, looks_at_few_boxes_where_the_limit_is_small) {
   const float* end = kernels.sketch.end(NodeEnd::first, 100);
   const std::int64_t looked_at = tree.search(
       end, join_viseme(table, NodeEnd::first, 100), 500.0, [&] { return best; },
-      [&](std::size_t place, std::int32_t) {
+      [&](std::size_t place, std::int32_t, double) {
         best = std::min(best, static_cast<double>(city_block(
                                   end, kernels.sketch.end(NodeEnd::last, entries[place].node))));
       });
