@@ -140,4 +140,28 @@ Corpus read_corpus(const fs::path& folder) {
   return corpus;
 }
 
+void keep_sentences(Corpus& corpus, const SentenceFilter& takes) {
+  if (!takes) {
+    return;
+  }
+  std::vector<CorpusSentence> kept;
+  std::map<std::size_t, std::size_t> place; // of the kept ones: before, after
+  for (std::size_t i = 0; i < corpus.sentences.size(); ++i) {
+    if (takes(corpus.sentences[i])) {
+      place.emplace(i, kept.size());
+      kept.push_back(std::move(corpus.sentences[i]));
+    }
+  }
+  if (kept.empty()) {
+    throw InputError(
+        {.where = corpus.folder.string(), .what = "no sentence of the corpus is left"});
+  }
+  corpus.sentences = std::move(kept);
+  std::erase_if(corpus.reference_frames,
+                [&](const auto& named) { return !place.contains(named.second.sentence); });
+  for (auto& [speaker, frame] : corpus.reference_frames) {
+    frame.sentence = place.at(frame.sentence);
+  }
+}
+
 } // namespace phonomime

@@ -6,6 +6,7 @@
 #include "db/types/phoneme_set.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -52,5 +53,13 @@ struct Corpus {
 // time 0 of a motion file is its first frame, whatever its own clock says.
 // Throws InputError (file and line) and IoError.
 Corpus read_corpus(const std::filesystem::path& folder);
+
+// Which sentences of a corpus; empty: every one.
+using SentenceFilter = std::function<bool(const CorpusSentence&)>;
+
+// Leaves out the sentences that the filter does not take, as if the table had never named them: a
+// reference frame in one of them is forgotten, so that the speaker's pose is found as where none is
+// named. Throws InputError where no sentence is left.
+void keep_sentences(Corpus& corpus, const SentenceFilter& takes);
 
 } // namespace phonomime

@@ -13,9 +13,14 @@ namespace phonomime {
 
 namespace {
 
-// The groups of the anchor that both sides show, and the pose fitted to them.
-std::optional<HeadPose> pose_of_frame(const Eigen::VectorXd& frame, const HeadAnchor& anchor,
-                                      const Eigen::VectorXd& reference_pose) {
+struct SizedPose {
+  HeadPose pose;
+  double size = 1.0;
+};
+
+// The pose and size fitted to the groups of the anchor that the frame shows.
+std::optional<SizedPose> pose_of_frame(const Eigen::VectorXd& frame, const HeadAnchor& anchor,
+                                       const Eigen::VectorXd& reference_pose, Scale scale) {
   Eigen::Matrix3Xd reference(3, anchor.groups.size());
   Eigen::Matrix3Xd points(3, anchor.groups.size());
   Eigen::Index count = 0;
@@ -28,23 +33,30 @@ std::optional<HeadPose> pose_of_frame(const Eigen::VectorXd& frame, const HeadAn
     }
   }
   if (anchor.gives_rotation) {
-    return fit_pose(reference.leftCols(count), points.leftCols(count));
+    const Eigen::Matrix3Xd shown = reference.leftCols(count);
+    const double size = count == 0 || scale == Scale::measured
+                            ? 1.0
+                            : point_spread(points.leftCols(count)) / point_spread(shown);
+    const std::optional<HeadPose> pose = fit_pose(size * shown, points.leftCols(count));
+    return pose ? std::optional(SizedPose{*pose, size}) : std::nullopt;
   }
   if (count < static_cast<Eigen::Index>(anchor.groups.size())) {
     return std::nullopt;
   }
-  HeadPose pose;
-  pose.translation_mm = points.rowwise().mean() - reference.rowwise().mean();
-  return pose;
+  SizedPose centred;
+  centred.pose.translation_mm = points.rowwise().mean() - reference.rowwise().mean();
+  return centred;
 }
 
-HeadPose between(const HeadPose& a, const HeadPose& b, double share) {
-  return {.translation_mm = (1.0 - share) * a.translation_mm + share * b.translation_mm,
-          .rotation = a.rotation.slerp(share, b.rotation)};
+SizedPose between(const SizedPose& a, const SizedPose& b, double share) {
+  return {.pose = {.translation_mm =
+                       (1.0 - share) * a.pose.translation_mm + share * b.pose.translation_mm,
+                   .rotation = a.pose.rotation.slerp(share, b.pose.rotation)},
+          .size = (1.0 - share) * a.size + share * b.size};
 }
 
 // Fills the poses that `known` does not have. At least one is known.
-Eigen::Index interpolate_unknown(std::vector<HeadPose>& head, const std::vector<bool>& known) {
+Eigen::Index interpolate_unknown(std::vector<SizedPose>& head, const std::vector<bool>& known) {
   const std::size_t none = head.size();
   std::size_t last = none;
   Eigen::Index interpolated = 0;
@@ -118,6 +130,11 @@ std::optional<HeadPose> fit_pose(const Eigen::Matrix3Xd& reference,
   return pose;
 }
 
+double point_spread(const Eigen::Matrix3Xd& points) {
+  const Eigen::Vector3d centre = points.rowwise().mean();
+  return std::sqrt((points.colwise() - centre).colwise().squaredNorm().mean());
+}
+
 Eigen::VectorXd centred_on_anchor(const Eigen::VectorXd& pose, const HeadAnchor& anchor) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const int group : anchor.groups) {
@@ -137,29 +154,28 @@ bool anchor_is_whole(const Eigen::Ref<const Eigen::VectorXd>& frame, const HeadA
 }
 
 HeadFree remove_head(const FrameMatrixD& frames, const HeadAnchor& anchor,
-                     const Eigen::VectorXd& reference_pose) {
+                     const Eigen::VectorXd& reference_pose, Scale scale) {
   const auto frame_count = static_cast<std::size_t>(frames.rows());
   HeadFree result;
-  result.head.resize(frame_count);
+  std::vector<SizedPose> poses(frame_count);
   std::vector<bool> known(frame_count, false);
   for (std::size_t k = 0; k < frame_count; ++k) {
     const Eigen::VectorXd frame = frames.row(static_cast<Eigen::Index>(k));
-    if (const std::optional<HeadPose> pose = pose_of_frame(frame, anchor, reference_pose)) {
-      result.head[k] = *pose;
+    if (const auto pose = pose_of_frame(frame, anchor, reference_pose, scale)) {
+      poses[k] = *pose;
       known[k] = true;
       result.found = true;
     }
   }
   if (!result.found) {
-    result.head.clear();
     return result;
   }
-  result.interpolated = interpolate_unknown(result.head, known);
+  result.interpolated = interpolate_unknown(poses, known);
   result.local.resize(frames.rows(), frames.cols());
   for (std::size_t k = 0; k < frame_count; ++k) {
-    HeadPose& pose = result.head[k];
+    HeadPose& pose = poses[k].pose;
     const bool flip =
-        k == 0 ? pose.rotation.w() < 0.0 : pose.rotation.dot(result.head[k - 1].rotation) < 0.0;
+        k == 0 ? pose.rotation.w() < 0.0 : pose.rotation.dot(poses[k - 1].pose.rotation) < 0.0;
     if (flip) {
       pose.rotation.coeffs() = -pose.rotation.coeffs();
     }
@@ -168,7 +184,9 @@ HeadFree remove_head(const FrameMatrixD& frames, const HeadAnchor& anchor,
         frames.row(static_cast<Eigen::Index>(k)).data(), 3, frames.cols() / 3);
     Eigen::Map<Eigen::Matrix3Xd> local(result.local.row(static_cast<Eigen::Index>(k)).data(), 3,
                                        frames.cols() / 3);
-    local = back * (markers.colwise() - pose.translation_mm);
+    local = back * (markers.colwise() - pose.translation_mm) / poses[k].size;
+    result.head.push_back(pose);
+    result.size.push_back(poses[k].size);
   }
   return result;
 }

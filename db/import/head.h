@@ -39,10 +39,14 @@ Eigen::VectorXd centred_on_anchor(const Eigen::VectorXd& pose, const HeadAnchor&
 // True where every group of the anchor is present in the frame.
 bool anchor_is_whole(const Eigen::Ref<const Eigen::VectorXd>& frame, const HeadAnchor& anchor);
 
-// Frames without head motion, and that motion: frame = rotation * local + translation_mm.
+// Root mean square distance of points (3 by #points) from their centroid.
+double point_spread(const Eigen::Matrix3Xd& points);
+
+// Frames without head motion, and that motion: frame = size * rotation * local + translation_mm.
 struct HeadFree {
   FrameMatrixD local;            // #frames by #channels, mm; NaN stays where it was
   std::vector<HeadPose> head;    // #frames, neighbouring quaternions on the same side
+  std::vector<double> size;      // #frames, of the reference's; 1 where the scale is measured
   Eigen::Index interpolated = 0; // frames whose pose came from their neighbours
   bool found = false;            // false: no frame shows enough of the anchor; the rest is empty
 };
@@ -50,8 +54,9 @@ struct HeadFree {
 // Takes the head motion off. `frames` is #frames by #channels in mm, NaN = missing;
 // `reference_pose` is #channels, centred on the anchor, with every group of the anchor present.
 // Each frame's pose is fitted to those groups of the anchor that it shows; where these do not
-// determine it, it is interpolated from the frames around (slerp, held at the ends).
+// determine it, it is interpolated from the frames around (slerp, held at the ends). Where the
+// scale is nominal, the size of those groups (point_spread) is taken off too.
 HeadFree remove_head(const FrameMatrixD& frames, const HeadAnchor& anchor,
-                     const Eigen::VectorXd& reference_pose);
+                     const Eigen::VectorXd& reference_pose, Scale scale);
 
 } // namespace phonomime

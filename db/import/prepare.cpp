@@ -55,7 +55,8 @@ HeadFree still_head(const RecordedSentence& recorded, const CorpusSentence& sent
   }
   const HeadAnchor anchor = head_anchor(context.corpus.layout);
   HeadFree free =
-      remove_head(recorded.frames, anchor, context.survey.references.at(sentence.speaker).pose);
+      remove_head(recorded.frames, anchor, context.survey.references.at(sentence.speaker).pose,
+                  context.survey.scale);
   if (!free.found) {
     throw InputError(
         {.where = sentence.where,

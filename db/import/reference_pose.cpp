@@ -25,13 +25,14 @@ Eigen::RowVectorXd column_medians(const FrameMatrixD& frames) {
 
 } // namespace
 
-Eigen::Index frame_nearest_to_median(const FrameMatrix& frames, const HeadAnchor& anchor) {
+Eigen::Index frame_nearest_to_median(const FrameMatrix& frames, const HeadAnchor& anchor,
+                                     Scale scale) {
   constexpr int kMostRounds = 5;
   const FrameMatrixD recorded = frames.cast<double>();
   Eigen::Index nearest = 0;
   for (int round = 0; round < kMostRounds; ++round) {
     const Eigen::VectorXd reference = centred_on_anchor(recorded.row(nearest).transpose(), anchor);
-    const HeadFree still = remove_head(recorded, anchor, reference);
+    const HeadFree still = remove_head(recorded, anchor, reference, scale);
     const FrameMatrixD& local = still.found ? still.local : recorded;
     const Eigen::RowVectorXd median = column_medians(local);
     const Eigen::Index before = nearest;

@@ -47,6 +47,11 @@ ImportReport begin_report(const Corpus& corpus, const Survey& survey, double rat
          .sentence = reference.sentence ? sentence_name(corpus.sentences[*reference.sentence]) : "",
          .time_s = reference.time_s});
   }
+  if (!survey.scale_origin.empty()) {
+    report.head_scale = {.scale = std::string(kScaleNames[static_cast<std::size_t>(survey.scale)]),
+                         .origin = survey.scale_origin,
+                         .size_variation = survey.size_variation};
+  }
   add_rejections(report, corpus, survey.rejections, 0);
   return report;
 }
@@ -126,6 +131,12 @@ json report_to_json(const ImportReport& report) {
                           {"sentence", reference.sentence},
                           {"time", reference.time_s}});
   }
+  json head_scale = nullptr;
+  if (!report.head_scale.scale.empty()) {
+    head_scale = {{"scale", report.head_scale.scale},
+                  {"origin", report.head_scale.origin},
+                  {"size_variation", report.head_scale.size_variation}};
+  }
   return {{"corpus", report.corpus},
           {"phoneme_set", report.phoneme_set},
           {"synthetic", report.synthetic},
@@ -159,6 +170,7 @@ json report_to_json(const ImportReport& report) {
           {"suspects", report.suspects},
           {"extra_groups", report.extra_groups},
           {"references", references},
+          {"head_scale", head_scale},
           {"pca",
            {{"frames", report.pca_frames},
             {"left_out", report.pca_left_out},
@@ -202,6 +214,13 @@ std::string report_to_text(const ImportReport& report) {
          reference.sentence.empty()
              ? ""
              : fmt::format(", {} at {:.2f} s", reference.sentence, reference.time_s));
+  }
+  if (!report.head_scale.scale.empty()) {
+    line("scale       {} ({}): the head's size varies by {:.2f} %{}", report.head_scale.scale,
+         report.head_scale.origin, 100.0 * report.head_scale.size_variation,
+         report.head_scale.scale == kScaleNames[static_cast<std::size_t>(Scale::nominal)]
+             ? ", which is taken off"
+             : "");
   }
   std::vector<std::string> suspects;
   for (const auto& [reason, nodes] : report.suspects) {

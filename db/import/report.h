@@ -38,6 +38,11 @@ struct ImportReport {
     std::string sentence; // "speaker/emotion/id", empty where it is no frame of this corpus
     double time_s = 0.0;
   };
+  struct HeadScale {             // of markers
+    std::string scale;           // as kScaleNames; empty for weights
+    std::string origin;          // as Survey::scale_origin
+    double size_variation = 0.0; // as Survey::size_variation
+  };
   struct StageTime {
     std::string stage;
     double seconds = 0.0;
@@ -58,6 +63,7 @@ struct ImportReport {
   std::map<std::string, std::int64_t> suspects;     // reason -> nodes
   std::map<std::string, std::int64_t> extra_groups; // not in the layout -> files
   std::vector<Reference> references;
+  HeadScale head_scale;
   std::int64_t pca_frames = 0, pca_left_out = 0; // of the whole database
   int pca_dimensions = 0;
   double pca_share = 0.0;         // 0 to 1

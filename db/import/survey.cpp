@@ -37,6 +37,28 @@ struct Candidates {
   }
 };
 
+// Of the logarithms of the sizes of a speaker's head.
+struct SizeMoments {
+  std::int64_t count = 0;
+  double sum = 0.0;
+  double sum_of_squares = 0.0;
+  void add(double size) {
+    const double logarithm = std::log(size);
+    count += 1;
+    sum += logarithm;
+    sum_of_squares += logarithm * logarithm;
+  }
+  void add(const SizeMoments& other) {
+    count += other.count;
+    sum += other.sum;
+    sum_of_squares += other.sum_of_squares;
+  }
+  double squared_deviations() const {
+    return count == 0 ? 0.0
+                      : std::max(0.0, sum_of_squares - sum * sum / static_cast<double>(count));
+  }
+};
+
 // What is found in one motion file.
 struct FileFindings {
   double rate_hz = 0.0;
@@ -45,6 +67,7 @@ struct FileFindings {
   std::int64_t frames_shared = 0;
   std::vector<std::string> extra_groups;
   UsualMotion usual;
+  std::map<std::string, SizeMoments> sizes;     // by speaker
   std::map<std::string, Candidates> candidates; // by speaker
   std::vector<std::size_t> good;                // sentences
   std::vector<Rejection> rejections;
@@ -75,7 +98,8 @@ void add_speeds(const RecordedSentence& recorded, const SurveyContext& context,
       return;
     }
     free = remove_head(recorded.frames, *context.anchor,
-                       centred_on_anchor(recorded.frames.row(first).transpose(), *context.anchor));
+                       centred_on_anchor(recorded.frames.row(first).transpose(), *context.anchor),
+                       Scale::measured);
     if (!free.found) {
       return;
     }
@@ -86,6 +110,22 @@ void add_speeds(const RecordedSentence& recorded, const SurveyContext& context,
   for (Eigen::Index k = 0; k < speeds.rows(); ++k) {
     for (Eigen::Index group = 0; group < speeds.cols(); ++group) {
       usual.speeds[static_cast<std::size_t>(group)].add(speeds(k, group));
+    }
+  }
+}
+
+void add_sizes(const RecordedSentence& recorded, const HeadAnchor& anchor, SizeMoments& sizes) {
+  Eigen::Matrix3Xd points(3, anchor.groups.size());
+  for (Eigen::Index k = 0; k < recorded.frames.rows(); ++k) {
+    const Eigen::VectorXd frame = recorded.frames.row(k);
+    if (!anchor_is_whole(frame, anchor)) {
+      continue;
+    }
+    for (std::size_t i = 0; i < anchor.groups.size(); ++i) {
+      points.col(static_cast<Eigen::Index>(i)) = marker_of(frame, anchor.groups[i]);
+    }
+    if (const double size = point_spread(points); size > 0.0) {
+      sizes.add(size);
     }
   }
 }
@@ -143,6 +183,9 @@ void look_at_sentence(std::size_t index, const LayoutMotion& motion, const Surve
                    sentence, context.corpus, context.options.tolerance_s);
   add_candidates(recorded, index, context, findings.candidates);
   add_speeds(recorded, context, findings.usual);
+  if (context.anchor && context.anchor->gives_rotation) {
+    add_sizes(recorded, *context.anchor, findings.sizes[sentence.speaker]);
+  }
   for (const TimedPhoneme& row : recorded.rows) {
     if (!row.is_silence()) {
       findings.usual.durations[row.phoneme.name].add(row.end_s - row.start_s);
@@ -187,8 +230,14 @@ FileFindings look_at_file(const Recording& recording, const SurveyContext& conte
   return findings;
 }
 
+// What is gathered from all files, and the survey does not keep.
+struct Gathered {
+  std::map<std::string, Candidates> candidates; // by speaker
+  std::map<std::string, SizeMoments> sizes;     // by speaker
+};
+
 void gather(FileFindings&& findings, const Recording& recording, Survey& survey,
-            std::map<std::string, Candidates>& candidates) {
+            Gathered& gathered) {
   survey.files += 1;
   survey.file_frames += findings.frames;
   survey.frames_outside += findings.frames_outside;
@@ -198,7 +247,10 @@ void gather(FileFindings&& findings, const Recording& recording, Survey& survey,
     ++survey.extra_groups[group];
   }
   for (auto& [speaker, found] : findings.candidates) {
-    candidates[speaker].add(std::move(found));
+    gathered.candidates[speaker].add(std::move(found));
+  }
+  for (const auto& [speaker, sizes] : findings.sizes) {
+    gathered.sizes[speaker].add(sizes);
   }
   survey.rejections.insert(survey.rejections.end(), findings.rejections.begin(),
                            findings.rejections.end());
@@ -210,8 +262,43 @@ void gather(FileFindings&& findings, const Recording& recording, Survey& survey,
   }
 }
 
+// More than any marker on skin slides, less than a head moves before a camera.
+constexpr double kMostMeasuredVariation = 0.01;
+
+void choose_scale(Survey& survey, const std::map<std::string, SizeMoments>& sizes,
+                  const SurveyContext& context, std::optional<Scale> known) {
+  if (!context.anchor) {
+    return;
+  }
+  double squares = 0.0;
+  std::int64_t frames = 0;
+  for (const auto& [speaker, moments] : sizes) {
+    squares += moments.squared_deviations();
+    frames += moments.count;
+  }
+  survey.size_variation = frames == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(frames));
+  const auto choose = [&](std::optional<Scale> scale, const char* origin) {
+    if (scale && survey.scale_origin.empty()) {
+      survey.scale = *scale;
+      survey.scale_origin = origin;
+    }
+  };
+  choose(context.options.scale, "asked for");
+  choose(context.corpus.layout.scale, "layout");
+  choose(known, "database");
+  choose(survey.size_variation > kMostMeasuredVariation ? Scale::nominal : Scale::measured,
+         "found");
+  if (survey.scale == Scale::nominal && !context.anchor->gives_rotation) {
+    throw InputError({.where = context.corpus.folder.string(),
+                      .what = "the scale is nominal, and the layout cannot tell the head's size",
+                      .expected = "at least three rigid groups",
+                      .got = fmt::format("{}", context.anchor->groups.size()),
+                      .remedy = "Name more rigid groups, or call the scale measured."});
+  }
+}
+
 ReferencePose choose_reference(const std::string& speaker, Candidates& candidates,
-                               const SurveyContext& context) {
+                               const SurveyContext& context, Scale scale) {
   if (candidates.frames.empty()) {
     throw InputError({.where = context.corpus.folder.string(),
                       .what = fmt::format("speaker \"{}\" has no frame of silence in which all "
@@ -225,7 +312,7 @@ ReferencePose choose_reference(const std::string& speaker, Candidates& candidate
     frames.row(k) = candidates.frames[static_cast<std::size_t>(k)];
     candidates.frames[static_cast<std::size_t>(k)].resize(0);
   }
-  const Eigen::Index nearest = frame_nearest_to_median(frames, *context.anchor);
+  const Eigen::Index nearest = frame_nearest_to_median(frames, *context.anchor, scale);
   const bool is_named = context.corpus.reference_frames.contains(speaker);
   return {.pose =
               centred_on_anchor(frames.row(nearest).transpose().cast<double>(), *context.anchor),
@@ -257,7 +344,8 @@ void choose_references(Survey& survey, std::map<std::string, Candidates>& candid
           .sentence = {},
           .time_s = 0.0};
     } else {
-      survey.references[speaker] = choose_reference(speaker, candidates[speaker], context);
+      survey.references[speaker] =
+          choose_reference(speaker, candidates[speaker], context, survey.scale);
       candidates.erase(speaker);
     }
   }
@@ -265,8 +353,7 @@ void choose_references(Survey& survey, std::map<std::string, Candidates>& candid
 
 } // namespace
 
-Survey survey_corpus(const Corpus& corpus, const RecordingOptions& options,
-                     const std::map<std::string, Eigen::VectorXd>& known_references,
+Survey survey_corpus(const Corpus& corpus, const RecordingOptions& options, const KnownHeads& known,
                      const Progress& progress) {
   SurveyContext context{.corpus = corpus,
                         .options = options,
@@ -281,13 +368,13 @@ Survey survey_corpus(const Corpus& corpus, const RecordingOptions& options,
       context.neutral_speakers.insert(sentence.speaker);
     }
   }
-  for (const auto& [speaker, pose] : known_references) {
+  for (const auto& [speaker, pose] : known.references) {
     context.settled_speakers.insert(speaker);
   }
   const std::vector<Recording> recordings = recordings_of(corpus);
   const auto count = static_cast<std::ptrdiff_t>(recordings.size());
   Survey survey;
-  std::map<std::string, Candidates> candidates;
+  Gathered gathered;
   for (std::ptrdiff_t first = 0; first < count; first += kFilesAtOnce) {
     progress.update("reading", first, count);
     std::vector<FileFindings> found(
@@ -298,7 +385,7 @@ Survey survey_corpus(const Corpus& corpus, const RecordingOptions& options,
     });
     for (std::size_t i = 0; i < found.size(); ++i) {
       gather(std::move(found[i]), recordings[static_cast<std::size_t>(first) + i], survey,
-             candidates);
+             gathered);
     }
   }
   progress.update("reading", count, count);
@@ -308,7 +395,8 @@ Survey survey_corpus(const Corpus& corpus, const RecordingOptions& options,
                       .what = "every sentence of the corpus is faulty",
                       .got = survey.rejections.front().reason});
   }
-  choose_references(survey, candidates, context, known_references);
+  choose_scale(survey, gathered.sizes, context, known.scale);
+  choose_references(survey, gathered.candidates, context, known.references);
   return survey;
 }
 

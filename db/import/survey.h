@@ -22,6 +22,7 @@ struct RecordingOptions {
   bool skip_faulty = false; // leave out (and report) a sentence whose files are faulty, instead of
                             // stopping there
   int threads = 0;          // 0: as many as there are
+  std::optional<Scale> scale; // of markers, whatever the layout says
 };
 
 // A sentence that was left out.
@@ -46,6 +47,9 @@ struct Survey {
   std::vector<Rejection> rejections; // in order of sentence
   double fastest_rate_hz = 0.0;
   UsualMotion usual;
+  Scale scale = Scale::measured;
+  std::string scale_origin;    // "asked for", "layout", "database", "found"; empty for weights
+  double size_variation = 0.0; // of the rigid groups, relative standard deviation over frames
   std::map<std::string, std::int64_t> extra_groups; // not in the layout -> number of files
   std::int64_t files = 0;                           // motion files read
   std::int64_t file_frames = 0;                     // in them
@@ -54,13 +58,18 @@ struct Survey {
   std::map<std::string, ReferencePose> references; // by speaker; markers only
 };
 
+// What a database that is added to has settled.
+struct KnownHeads {
+  std::map<std::string, Eigen::VectorXd> references; // by speaker
+  std::optional<Scale> scale;                        // of a database of markers
+};
+
 // Reads every motion file and alignment of a corpus once, over `threads` threads, and checks each
-// sentence as cut_sentence does. `known_references` are poses that an existing database has: those
-// speakers keep theirs. Throws the first fault in order (InputError, IoError) unless they are to be
-// skipped, InputError where no sentence is left or a speaker has no frame for a reference pose, and
-// Interrupted.
-Survey survey_corpus(const Corpus& corpus, const RecordingOptions& options,
-                     const std::map<std::string, Eigen::VectorXd>& known_references,
+// sentence as cut_sentence does. `known` are the poses and the scale that an existing database has:
+// those speakers keep theirs. Throws the first fault in order (InputError, IoError) unless they are
+// to be skipped, InputError where no sentence is left or a speaker has no frame for a reference
+// pose, and Interrupted.
+Survey survey_corpus(const Corpus& corpus, const RecordingOptions& options, const KnownHeads& known,
                      const Progress& progress);
 
 } // namespace phonomime

@@ -23,6 +23,13 @@ Difference first_difference(const Layout& known, const Layout& offered) {
   if (known.kind != offered.kind) {
     return {"kind", kind(known), kind(offered)};
   }
+  if (known.scale != offered.scale) {
+    const auto scale = [](const Layout& layout) {
+      return layout.scale ? std::string(kScaleNames[static_cast<std::size_t>(*layout.scale)])
+                          : std::string("not said");
+    };
+    return {"scale", scale(known), scale(offered)};
+  }
   for (int i = 0; i < std::min(known.group_count(), offered.group_count()); ++i) {
     const ChannelGroup& ours = known.groups[static_cast<std::size_t>(i)];
     const ChannelGroup& theirs = offered.groups[static_cast<std::size_t>(i)];

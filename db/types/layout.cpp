@@ -110,7 +110,7 @@ void check_members_of_kind(const json& value, LayoutKind kind, std::string_view 
                         .remedy = "See corpora_schema/layout.md."});
     }
   }
-  for (const char* member : {"unit", "axes", "reference", "landmarks"}) {
+  for (const char* member : {"unit", "axes", "scale", "reference", "landmarks"}) {
     if (!markers && value.contains(member)) {
       throw InputError({.where = std::string(where),
                         .what = fmt::format("a layout of weights has no {}", quoted(member)),
@@ -159,6 +159,9 @@ Layout parse_layout(std::string_view json_text, std::string_view where) {
   }
   layout.unit_mm = unit_in_mm(value.at("unit").get_ref<const std::string&>());
   layout.axes = parse_axes(value.at("axes"), where);
+  if (value.contains("scale")) {
+    layout.scale = value.at("scale") == "measured" ? Scale::measured : Scale::nominal;
+  }
   layout.reference = value.value("reference", std::string());
   if (!layout.reference.empty()) {
     require_group(layout, layout.reference, "$.reference", where);
@@ -179,6 +182,9 @@ std::string format_layout(const Layout& layout) {
     value["unit"] = "mm";
     value["axes"] = {
         {"x", kDirections[0].name}, {"y", kDirections[2].name}, {"z", kDirections[4].name}};
+    if (layout.scale) {
+      value["scale"] = kScaleNames[static_cast<std::size_t>(*layout.scale)];
+    }
     if (!layout.reference.empty()) {
       value["reference"] = layout.reference;
     }

@@ -17,6 +17,11 @@ inline constexpr std::array<std::string_view, 8> kRegionNames = {
 
 enum class LayoutKind { markers, weights };
 
+// Whether lengths can be believed. A single camera knows them up to a factor that changes as the
+// head comes nearer; there every frame is brought to the size of the reference pose.
+enum class Scale { measured, nominal };
+inline constexpr std::array<std::string_view, 2> kScaleNames = {"measured", "nominal"};
+
 // The unit of distance: a marker (3 channels, mm) or a blendshape weight (1 channel).
 struct ChannelGroup {
   std::string name;
@@ -36,7 +41,8 @@ struct Layout {
   LayoutKind kind = LayoutKind::markers;
   double unit_mm = 1.0; // size of the files' unit (markers only)
   std::array<AxisSource, 3> axes = {{{0, 1.0}, {1, 1.0}, {2, 1.0}}};
-  std::string reference; // reference marker; may be empty
+  std::optional<Scale> scale; // markers only; empty: an import finds out
+  std::string reference;      // reference marker; may be empty
   std::vector<ChannelGroup> groups;
   std::map<std::string, std::string, std::less<>> landmarks; // landmark -> group name
 

@@ -32,8 +32,9 @@ constexpr std::ptrdiff_t kFilesAtOnce = 16;
 
 // What an existing database settles.
 struct Settled {
+  std::optional<Layout> layout;
   double rate_hz = 0.0; // 0: nothing yet
-  std::map<std::string, Eigen::VectorXd> references;
+  KnownHeads heads;
   std::set<std::tuple<std::string, std::string, std::string>> sentences; // speaker, emotion, id
 };
 
@@ -66,10 +67,15 @@ Settled look_into(const std::filesystem::path& path) {
   if (database.empty()) {
     return settled;
   }
-  settled.rate_hz = database.info().rate_hz;
+  const DatabaseInfo info = database.info();
+  settled.layout = info.layout;
+  settled.rate_hz = info.rate_hz;
+  if (info.layout.kind == LayoutKind::markers) {
+    settled.heads.scale = info.layout.scale.value_or(Scale::measured);
+  }
   for (const std::string& speaker : database.speakers()) {
     const MotionTable table = database.load_motion_table(speaker);
-    settled.references[speaker] = table.reference_pose;
+    settled.heads.references[speaker] = table.reference_pose;
     for (const SentenceInfo& sentence : table.sentences) {
       settled.sentences.insert({sentence.speaker, sentence.emotion, sentence.id});
     }
@@ -99,6 +105,17 @@ double choose_rate(const ImportOptions& options, const Settled& settled, const S
                       .remedy = "Name a lower rate for the database."});
   }
   return std::max(kLeastDefaultRate_hz, survey.fastest_rate_hz);
+}
+
+// What every later corpus of the database goes by. One that does not say was made when every scale
+// was taken as measured.
+void settle_scale(Layout& layout, const Survey& survey, const Settled& settled) {
+  const bool unsaid = settled.layout && !settled.layout->scale;
+  if (layout.kind == LayoutKind::markers && !(unsaid && survey.scale == Scale::measured)) {
+    layout.scale = survey.scale;
+  } else {
+    layout.scale.reset();
+  }
 }
 
 void store_sentences(ImportTransaction& transaction, const PrepareContext& context,
@@ -204,12 +221,14 @@ void ImportOptions::validate() const {
 ImportReport import_corpus(const ImportOptions& options, const Progress& progress) {
   options.validate();
   Stopwatch stopwatch;
-  const Corpus corpus = read_corpus(options.corpus);
+  Corpus corpus = read_corpus(options.corpus);
+  keep_sentences(corpus, options.takes);
   const Settled settled = look_into(options.database);
   check_new(settled, corpus);
-  const Survey survey = survey_corpus(corpus, options.recordings, settled.references, progress);
+  const Survey survey = survey_corpus(corpus, options.recordings, settled.heads, progress);
   const SuspectLimits limits = suspect_limits(survey.usual, corpus.layout.kind);
   const double rate_hz = choose_rate(options, settled, survey);
+  settle_scale(corpus.layout, survey, settled);
   ImportReport report = begin_report(corpus, survey, rate_hz);
   stopwatch.stop(report.timings, "survey");
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "db/import/corpus.h"
 #include "db/import/pca.h"
 #include "db/import/report.h"
 #include "db/import/survey.h"
@@ -16,6 +17,7 @@ struct ImportOptions {
   double rate_hz = 0.0; // of a new database, 10 to 1000; 0: the fastest recording's, at least 100
   PcaSize pca;
   RecordingOptions recordings; // gap limit, tolerance, faulty sentences, threads
+  SentenceFilter takes;        // which sentences of the corpus; empty: all
 
   // Throws UsageError, which says what is out of range.
   void validate() const;

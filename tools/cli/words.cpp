@@ -5,9 +5,8 @@
 #include "db/types/text.h"
 
 #include <algorithm>
-#include <array>
+#include <initializer_list>
 #include <numbers>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -15,6 +14,27 @@
 #include <fmt/ranges.h>
 
 namespace phonomime {
+
+namespace {
+
+template <typename Choice>
+Choice parse_choice(const char* option, const char* fault, const std::string& text,
+                    std::initializer_list<std::pair<const char*, Choice>> choices) {
+  std::vector<std::string> names;
+  for (const auto& [name, choice] : choices) {
+    if (text == name) {
+      return choice;
+    }
+    names.emplace_back(name);
+  }
+  throw UsageError({.where = option,
+                    .what = fault,
+                    .expected = fmt::format("one of {}", fmt::join(names, ", ")),
+                    .got = quoted(text),
+                    .remedy = did_you_mean(text, names)});
+}
+
+} // namespace
 
 HeadPose parse_head(const std::string& text) {
   std::vector<double> numbers;
@@ -45,22 +65,18 @@ HeadPose parse_head(const std::string& text) {
 }
 
 SilenceFill parse_silence(const std::string& text) {
-  constexpr std::array<std::pair<const char*, SilenceFill>, 3> kFills = {
-      {{"linear", SilenceFill::linear},
-       {"cosine", SilenceFill::cosine},
-       {"cubic", SilenceFill::cubic}}};
-  std::vector<std::string> names;
-  for (const auto& [name, fill] : kFills) {
-    if (text == name) {
-      return fill;
-    }
-    names.emplace_back(name);
+  return parse_choice<SilenceFill>("--silence", "there is no such way to fill silence", text,
+                                   {{"linear", SilenceFill::linear},
+                                    {"cosine", SilenceFill::cosine},
+                                    {"cubic", SilenceFill::cubic}});
+}
+
+std::optional<Scale> parse_scale(const std::string& text) {
+  if (text.empty()) {
+    return std::nullopt;
   }
-  throw UsageError({.where = "--silence",
-                    .what = "there is no such way to fill silence",
-                    .expected = fmt::format("one of {}", fmt::join(names, ", ")),
-                    .got = quoted(text),
-                    .remedy = did_you_mean(text, names)});
+  return parse_choice<Scale>("--scale", "there is no such scale", text,
+                             {{"measured", Scale::measured}, {"nominal", Scale::nominal}});
 }
 
 void check_verb(std::span<const char* const> call, const std::vector<std::string>& verbs) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "db/types/layout.h"
 #include "tools/app/synth.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +19,9 @@ HeadPose parse_head(const std::string& text);
 
 // "linear", "cosine" or "cubic".
 SilenceFill parse_silence(const std::string& text);
+
+// "measured" or "nominal"; nothing for "".
+std::optional<Scale> parse_scale(const std::string& text);
 
 // The first word of `call` that is no option has to be one of the verbs; a call without any word is
 // refused too.

@@ -86,6 +86,18 @@ TEST(Layout, FindsGroupsRegionsAndLandmarks) {
   EXPECT_TRUE(layout.groups[2].regions.empty());
 }
 
+TEST(Layout, SaysWhetherItsScaleCanBeBelieved) {
+  json layout = good_layout();
+  EXPECT_EQ(parsed(layout).scale, std::nullopt);
+  for (const Scale scale : {Scale::measured, Scale::nominal}) {
+    layout["scale"] = kScaleNames[static_cast<std::size_t>(scale)];
+    EXPECT_EQ(parsed(layout).scale, scale);
+    EXPECT_EQ(parse_layout(format_layout(parsed(layout)), "database").scale, scale);
+  }
+  layout["scale"] = "guessed";
+  EXPECT_NE(layout_error(layout).find("$.scale"), std::string::npos);
+}
+
 TEST(Layout, IsReadBackInMillimetresAndOurAxes) {
   const Layout layout = parsed(good_layout());
   const Layout again = parse_layout(format_layout(layout), "database");

@@ -51,8 +51,8 @@ public:
     return text.str();
   }
 
-  // A head that turns and nods, and a mouth that opens and closes.
-  static std::string motion(int frames, double phase) {
+  // A head that turns and nods, and a mouth that opens and closes; all `size` times as large.
+  static std::string motion(int frames, double phase, double size = 1.0) {
     std::string text = "time";
     for (const char* group : {"r1", "r2", "r3", "r4", "upper", "lower"}) {
       text += fmt::format(",{0}_x,{0}_y,{0}_z", group);
@@ -70,9 +70,9 @@ public:
         const double x = local[group][0];
         const double y = local[group][1] - (group == 5 ? open : 0.0);
         const double z = local[group][2];
-        text +=
-            fmt::format(",{:.5f},{:.5f},{:.5f}", std::cos(yaw) * x + std::sin(yaw) * z + 5.0 * t,
-                        y + 2.0 * phase, -std::sin(yaw) * x + std::cos(yaw) * z + 400.0);
+        text += fmt::format(
+            ",{:.5f},{:.5f},{:.5f}", size * (std::cos(yaw) * x + std::sin(yaw) * z) + 5.0 * t,
+            size * y + 2.0 * phase, size * (-std::sin(yaw) * x + std::cos(yaw) * z) + 400.0);
       }
       text += '\n';
     }

@@ -66,7 +66,7 @@ TEST(Head, RecoversKnownPosesAndTheFaceBelowThem) {
     local.row(k).segment<3>(18) += Eigen::RowVector3d(3 * std::sin(5 * t), 8 * std::cos(3 * t), t);
     frames.row(k) = posed(local.row(k).transpose(), poses[static_cast<std::size_t>(k)]).transpose();
   }
-  const HeadFree free = remove_head(frames, anchor, reference);
+  const HeadFree free = remove_head(frames, anchor, reference, Scale::measured);
   ASSERT_TRUE(free.found);
   EXPECT_EQ(free.interpolated, 0);
   EXPECT_LT((free.local - local).cwiseAbs().maxCoeff(), 1e-9);
@@ -81,6 +81,38 @@ TEST(Head, RecoversKnownPosesAndTheFaceBelowThem) {
       EXPECT_GT(free.head[k].rotation.dot(free.head[k - 1].rotation), 0.0) << k;
     }
   }
+}
+
+TEST(Head, ANominalScaleIsTakenOffWithTheHeadMotion) {
+  const HeadAnchor anchor = head_anchor(face_layout());
+  const Eigen::VectorXd reference = centred_on_anchor(face_pose(), anchor);
+  FrameMatrixD local(30, 24);
+  FrameMatrixD frames(30, 24);
+  std::vector<double> sizes;
+  for (Eigen::Index k = 0; k < local.rows(); ++k) {
+    const double t = 0.3 * static_cast<double>(k);
+    local.row(k) = reference.transpose();
+    local.row(k).segment<3>(18) += Eigen::RowVector3d(2 * std::sin(t), 8 * std::cos(t), t);
+    sizes.push_back(1.0 + 0.1 * std::sin(0.5 * t));
+    frames.row(k) = posed(sizes.back() * local.row(k).transpose(),
+                          {.translation_mm = {10 * t, -t, 400.0}, .rotation = turn(t, 0.2, 0.1)})
+                        .transpose();
+  }
+  frames.row(7).head(12).setConstant(kMissing); // two rigid markers are left: no pose, no size
+  const HeadFree free = remove_head(frames, anchor, reference, Scale::nominal);
+  EXPECT_EQ(free.interpolated, 1);
+  for (Eigen::Index k = 0; k < local.rows(); ++k) {
+    const double size = free.size[static_cast<std::size_t>(k)];
+    if (k == 7) {
+      EXPECT_NEAR(size, 0.5 * (sizes[6] + sizes[8]), 1e-9);
+      continue;
+    }
+    EXPECT_NEAR(size, sizes[static_cast<std::size_t>(k)], 1e-9);
+    EXPECT_LT((free.local.row(k) - local.row(k)).cwiseAbs().maxCoeff(), 1e-9) << k;
+  }
+  const HeadFree as_recorded = remove_head(frames, anchor, reference, Scale::measured);
+  EXPECT_EQ(as_recorded.size, std::vector<double>(30, 1.0));
+  EXPECT_GT((as_recorded.local.row(5) - local.row(5)).norm(), 1.0);
 }
 
 TEST(Head, AMirroredFaceStillGivesARotation) {
@@ -128,7 +160,7 @@ TEST(Head, UsesTheRigidMarkersThatAreThereElseTheFramesAround) {
   frames.row(1).segment(0, 9).setConstant(kMissing);  // three of six are left
   frames.row(2).segment(0, 12).setConstant(kMissing); // two are left
   frames.row(4).setConstant(kMissing);
-  const HeadFree free = remove_head(frames, anchor, reference);
+  const HeadFree free = remove_head(frames, anchor, reference, Scale::measured);
   EXPECT_EQ(free.interpolated, 2);
   for (const std::size_t k : {0u, 1u, 2u, 3u}) {
     EXPECT_LT(difference(free.head[k].rotation, poses[k].rotation), 1e-9) << k;
@@ -153,7 +185,7 @@ TEST(Head, FewerThanThreeRigidMarkersCentreOnTheReferenceMarker) {
   FrameMatrixD frames(1, 24);
   frames.row(0) =
       posed(face_pose(), {.translation_mm = {5, 6, 7}, .rotation = turn(0.2, 0, 0)}).transpose();
-  const HeadFree free = remove_head(frames, anchor, reference);
+  const HeadFree free = remove_head(frames, anchor, reference, Scale::measured);
   EXPECT_TRUE(marker_of(free.local.row(0).transpose(), 5).isZero());
   EXPECT_EQ(free.head[0].rotation.coeffs(), Eigen::Quaterniond::Identity().coeffs());
 }
@@ -178,7 +210,7 @@ TEST(ReferencePose, IsTheFrameNearestToTheMedianWhereverTheHeadIs) {
                         .cast<float>()
                         .transpose();
   }
-  EXPECT_EQ(frame_nearest_to_median(frames, anchor), 20);
+  EXPECT_EQ(frame_nearest_to_median(frames, anchor, Scale::measured), 20);
 }
 
 } // namespace

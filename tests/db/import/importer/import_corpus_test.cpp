@@ -4,11 +4,13 @@
 #include "db/store/motion_database.h"
 #include "db/types/errors.h"
 #include "tests/db/import/importer/corpus_folder.h"
+#include "tests/support/expect_error.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <atomic>
+#include <cmath>
 
 namespace phonomime {
 namespace {
@@ -157,6 +159,47 @@ TEST(ImportCorpus, ASecondCorpusKeepsTheSpeakersReferencePose) {
   ImportOptions faster = options_for(folder);
   faster.rate_hz = 120.0;
   EXPECT_THROW(import_corpus(faster, {}), InputError);
+}
+
+// The last marker (3 numbers) of each frame, all sentences.
+FrameMatrix last_marker(const test::CorpusFolder& folder) {
+  const MotionDatabase database = MotionDatabase::open(folder.database(), OpenMode::read_only);
+  FrameMatrix frames(0, 3);
+  for (const SentenceInfo& sentence : database.load_motion_table("small").sentences) {
+    const FrameMatrix channels = database.load_channels(sentence);
+    frames.conservativeResize(frames.rows() + channels.rows(), 3);
+    frames.bottomRows(channels.rows()) = channels.rightCols(3);
+  }
+  return frames;
+}
+
+TEST(ImportCorpus, AHeadThatNearsASingleCameraIsBroughtToOneSize) {
+  const test::CorpusFolder folder;
+  EXPECT_EQ(import_corpus(options_for(folder), {}).head_scale.scale, "measured");
+  const FrameMatrix as_made = last_marker(folder);
+  std::filesystem::remove(folder.database());
+
+  folder.write("b.csv", test::CorpusFolder::motion(100, 1.0, 1.04));
+  const ImportReport report = import_corpus(options_for(folder), {});
+  EXPECT_EQ(report.head_scale.scale, "nominal");
+  EXPECT_EQ(report.head_scale.origin, "found");
+  EXPECT_NEAR(report.head_scale.size_variation, 0.5 * std::log(1.04), 1e-4);
+  // One of the two sizes is the reference's: all is as made, or 1.04 times that.
+  const FrameMatrix brought = last_marker(folder);
+  const float factor = brought.row(0).norm() / as_made.row(0).norm();
+  EXPECT_NEAR(factor < 1.02f ? 1.0f : 1.04f, factor, 1e-3);
+  EXPECT_LT((brought - factor * as_made).cwiseAbs().maxCoeff(), 0.05f);
+
+  // Later corpora of the database go by the same, whatever they measure.
+  folder.write_table("c\ta.csv\ta.lab\n");
+  EXPECT_EQ(import_corpus(options_for(folder), {}).head_scale.origin, "database");
+  folder.write_table("d\ta.csv\ta.lab\n");
+  ImportOptions otherwise = options_for(folder);
+  otherwise.recordings.scale = Scale::measured;
+  EXPECT_NE(test::input_error([&] { import_corpus(otherwise, {}); }).find("scale"),
+            std::string::npos);
+  std::filesystem::remove(folder.database());
+  EXPECT_EQ(import_corpus(otherwise, {}).head_scale.origin, "asked for");
 }
 
 TEST(ImportCorpus, ANamedReferenceFrameIsTaken) {
