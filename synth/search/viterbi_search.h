@@ -7,6 +7,12 @@
 
 namespace phonomime {
 
+// Paths of one transcript that have no node in common, each the best without those before it.
+struct DisjointPaths {
+  SearchResult best;
+  std::vector<NodePath> others; // in the order in which they were found, costs never fall
+};
+
 // The exact search for the node path of least cost (E4, Algorithm 1 with DESIGN 4).
 //
 // The cost is that of the plain O(N^2 T) recursion, to the bit, and so is the path: ties go to the
@@ -24,6 +30,14 @@ public:
   // No step, no path: cost 0. Throws Interrupted where `progress` asks for a stop.
   SearchResult solve(std::span<const SearchStep> steps, const SearchOptions& options = {},
                      const Progress& progress = {});
+
+  // The best path, then the best that shares no node with it, then the best that shares none with
+  // either, and so on: `count` of them. A step that has no other node within 2 PNT of its least
+  // penalty (StepPenalties::near), or among those that a `use` constraint names, keeps those of
+  // earlier paths, so that neither constraint nor rare phoneme is given up. Runners-up are of the
+  // best path.
+  DisjointPaths solve_disjoint(std::span<const SearchStep> steps, int count,
+                               const SearchOptions& options = {}, const Progress& progress = {});
 
   SearchSpace& space() { return space_; }
 

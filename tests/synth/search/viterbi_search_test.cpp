@@ -3,9 +3,13 @@
 #include "tests/synth/search/random_tables.h"
 
 #include "db/types/errors.h"
+#include "synth/search/step_costs.h"
 #include "synth/search/viterbi_search.h"
 
+#include <algorithm>
 #include <atomic>
+#include <limits>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +57,68 @@ TEST(ViterbiSearch, equals_the_plain_recursion_on_random_databases) {
     const CostWeights weights = test::random_weights(draw);
     const std::vector<SearchStep> steps = test::random_steps(table, 1 + draw.below(14), draw);
     ASSERT_NO_FATAL_FAILURE(expect_same_as_judge(table, weights, steps));
+  }
+}
+
+// By the definition: the plain recursion, again and again, without the nodes of the paths so far
+// where a step has others that are near enough.
+std::vector<NodePath> judged_disjoint_paths(const MotionTable& table, const CostWeights& weights,
+                                            const std::vector<SearchStep>& steps, int count) {
+  std::set<NodeIndex> used;
+  std::vector<NodePath> paths;
+  for (int k = 0; k < count; ++k) {
+    std::vector<SearchStep> rest = steps;
+    for (SearchStep& step : rest) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const NodeIndex node : test::all_nodes(table)) {
+        if (is_allowed(step, node)) {
+          least = std::min(
+              least, step_penalty(step, table.nodes[static_cast<std::size_t>(node)], weights));
+        }
+      }
+      const bool others = std::ranges::any_of(test::all_nodes(table), [&](NodeIndex node) {
+        return is_allowed(step, node) && !used.contains(node) &&
+               (!step.allowed.empty() ||
+                step_penalty(step, table.nodes[static_cast<std::size_t>(node)], weights) <=
+                    least + 2.0 * weights.pnt);
+      });
+      if (others) {
+        std::set<NodeIndex> avoided(step.avoided.begin(), step.avoided.end());
+        avoided.insert(used.begin(), used.end());
+        step.avoided.assign(avoided.begin(), avoided.end());
+      }
+    }
+    paths.push_back(PlainRecursion(table, weights).solve(rest));
+    used.insert(paths.back().nodes.begin(), paths.back().nodes.end());
+  }
+  return paths;
+}
+
+TEST(ViterbiSearch, finds_disjoint_paths_one_after_another) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Draw draw(seed);
+    test::TableShape shape;
+    shape.sentences = 1 + draw.below(14);
+    shape.groups = 1 + draw.below(5);
+    shape.dimensions = 1 + draw.below(3 * shape.groups);
+    shape.emotions = 1 + draw.below(3);
+    shape.phonemes = 1 + draw.below(5);
+    const MotionTable table = test::random_table(shape, draw);
+    const CostWeights weights = test::random_weights(draw);
+    const std::vector<SearchStep> steps = test::random_steps(table, 1 + draw.below(8), draw);
+    const int count = 1 + draw.below(6);
+    const std::vector<NodePath> judged = judged_disjoint_paths(table, weights, steps, count);
+    ViterbiSearch search(table, weights);
+    for (const int threads : {1, 2}) {
+      const DisjointPaths found = search.solve_disjoint(steps, count, {.threads = threads});
+      ASSERT_EQ(found.others.size() + 1, judged.size());
+      for (std::size_t k = 0; k < judged.size(); ++k) {
+        const NodePath& path = k == 0 ? found.best.path : found.others[k - 1];
+        ASSERT_EQ(path.cost, judged[k].cost) << k;
+        ASSERT_EQ(path.nodes, judged[k].nodes) << k;
+      }
+    }
   }
 }
 
