@@ -30,7 +30,8 @@ def case(name, status, output="", inside=""):
 SKIPPED = '<skipped message="SKIP_RETURN_CODE=77"/>'
 # Programs that start another without root's rights, and with them.
 WITHOUT_RIGHTS = ["setpriv", "--bounding-set=-all", "--inh-caps=-all"] if os.geteuid() == 0 else []
-WITH_RIGHTS = ["unshare", "--mount", "--propagation", "unchanged"] if os.geteuid() == 0 else ["unshare", "--user", "--map-root-user"]
+WITH_RIGHTS = (["unshare", "--mount", "--propagation", "unchanged"] if os.geteuid() == 0
+               else ["unshare", "--user", "--map-root-user"])
 
 
 class Report(unittest.TestCase):
