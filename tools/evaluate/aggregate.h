@@ -28,8 +28,9 @@ struct RunInfo {
 
 // One method's results; sentences in order of key, the same ones in each method.
 struct MethodResult {
-  std::string id;          // "paper"
-  std::string description; // one clause for people
+  std::string id;              // "paper"
+  std::string description;     // one clause for people
+  bool sees_recording = false; // it bounds the others and is no rival of theirs
   std::vector<SentenceMeasures> sentences;
   std::vector<int> folds; // #sentences: the fold that held it out; empty without folds
 };

@@ -24,6 +24,7 @@ struct EarlierRun {
   std::string corpus;
   std::string held_out_by;
   double rate_hz = 0.0;
+  std::vector<Measure> measures; // that it holds and this program knows
   std::vector<Method> methods;
   std::string main_method;
 };
@@ -68,10 +69,5 @@ struct Comparison {
 // main methods where their ids differ. Throws InputError where the runs cannot be compared: other
 // corpus, rate or frame counts, no sentence or no method in common.
 Comparison compare_runs(const Evaluation& evaluation, const EarlierRun& earlier);
-
-// Two-sided p-value of Wilcoxon's signed-rank test of paired differences: zeros are dropped, ties
-// share their mean rank; exact up to 50 differences without ties, else by the normal approximation
-// with correction for ties. 1 where no difference is left.
-double wilcoxon_p_value(std::span<const double> differences);
 
 } // namespace phonomime

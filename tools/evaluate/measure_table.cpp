@@ -92,6 +92,17 @@ constexpr std::array<MeasureInfo, kMeasureCount> kTable = {{
      "share of joins whose two nodes were recorded one after the other", "joins of two nodes"},
 }};
 
+constexpr std::array<Headline, 10> kHeadlines = {{{Measure::squared_error, "E13"},
+                                                  {Measure::lip_rmse, "lip RMSE"},
+                                                  {Measure::lip_vertex_error, "lip vertex"},
+                                                  {Measure::aperture_correlation, "r aperture"},
+                                                  {Measure::width_correlation, "r width"},
+                                                  {Measure::closure_recall, "closures"},
+                                                  {Measure::aperture_deviation_ratio, "std apert."},
+                                                  {Measure::aperture_speed_ratio, "speed ap."},
+                                                  {Measure::lip_speed_ratio, "speed lips"},
+                                                  {Measure::captured_joins, "captured"}}};
+
 } // namespace
 
 const MeasureInfo& info(Measure measure) {
@@ -120,6 +131,10 @@ std::array<Measure, kMeasureCount> all_measures() {
     measures[i] = static_cast<Measure>(i);
   }
   return measures;
+}
+
+std::span<const Headline> headlines() {
+  return kHeadlines;
 }
 
 std::optional<double> badness(Measure measure, double value) {

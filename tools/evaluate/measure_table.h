@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace phonomime {
@@ -70,6 +71,13 @@ std::optional<Measure> find_measure(std::string_view id);
 
 // All measures, in order.
 std::array<Measure, kMeasureCount> all_measures();
+
+// The measures that a first table shows, with names that fit above a column.
+struct Headline {
+  Measure measure;
+  std::string_view label;
+};
+std::span<const Headline> headlines();
 
 // One value a measure; nothing where it has no meaning (a layout of weights has no aperture, a
 // sentence without /p b m/ no closure), which is never the same as 0.

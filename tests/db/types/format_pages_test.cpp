@@ -11,6 +11,7 @@
 #include "db/types/text.h"
 #include "tests/support/shared_data.h"
 #include "tools/app/manifest.h"
+#include "tools/evaluate/compare.h"
 
 #include <cmath>
 #include <filesystem>
@@ -143,6 +144,11 @@ TEST(FormatPages, EveryExampleIsWhatItsPageSays) {
        [](const std::string& text) {
          EXPECT_EQ(parse_json_as("result", text, "result.md").at("path").size(), 3u);
        }},
+      {"evaluation json",
+       [](const std::string& text) {
+         const EarlierRun run = parse_evaluation(text, "evaluation.md");
+         EXPECT_EQ(run.methods.at(0).sentences.at(1).values[Measure::rmse], 1.8);
+       }},
       {"database key", [](const std::string& text) {
          MotionTable table;
          table.speaker = "s1";
@@ -166,7 +172,8 @@ TEST(FormatPages, EveryExampleIsWhatItsPageSays) {
 
 // A page names every member of its schema.
 TEST(FormatPages, TheTablesListTheSchemasMembers) {
-  for (const char* schema_name : {"corpus", "layout", "phoneme_set", "weights", "result"}) {
+  for (const char* schema_name :
+       {"corpus", "layout", "phoneme_set", "weights", "result", "evaluation"}) {
     const std::string page = read_file(kFolder / (std::string(schema_name) + ".md"));
     const nlohmann::json schema = nlohmann::json::parse(
         read_file(kFolder / "schemas" / (std::string(schema_name) + ".schema.json")));
