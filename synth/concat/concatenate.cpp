@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace phonomime {
@@ -27,13 +28,18 @@ void check(const MotionTable& table, std::span<const ConcatStep> steps,
   }
 }
 
-// The steps that have a node to show and frames to show it in.
-std::vector<ShownNode> share_out_frames(std::span<const ConcatStep> steps, double rate_hz) {
+// The frames of each step.
+std::vector<FrameRange> share_out(std::span<const ConcatStep> steps, double rate_hz) {
   std::vector<TimeSpan> spans;
   for (const ConcatStep& step : steps) {
     spans.push_back({step.start_s, step.end_s, step.shows()});
   }
-  const std::vector<FrameRange> ranges = assign_frames(spans, rate_hz);
+  return assign_frames(spans, rate_hz);
+}
+
+// The steps that have a node to show and frames to show it in.
+std::vector<ShownNode> share_out_frames(std::span<const ConcatStep> steps, double rate_hz) {
+  const std::vector<FrameRange> ranges = share_out(steps, rate_hz);
   std::vector<ShownNode> shown;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i].shows() && ranges[i].count > 0) {
@@ -77,22 +83,113 @@ void hold_last_phoneme(FrameMatrixD& frames, std::vector<std::uint8_t>& shown,
   }
 }
 
+void check_same_transcript(const std::vector<ConcatStep>& path,
+                           const std::vector<ConcatStep>& first) {
+  const auto same = [](const ConcatStep& a, const ConcatStep& b) {
+    return a.is_silence == b.is_silence && a.start_s == b.start_s && a.end_s == b.end_s &&
+           a.show_node == b.show_node;
+  };
+  if (!std::equal(path.begin(), path.end(), first.begin(), first.end(), same)) {
+    throw InternalError({.what = "paths that are to be blended are not of one transcript"});
+  }
+}
+
+// `motion` of a step in another number of frames.
+void stretch(const FrameMatrixD& motion, Eigen::Ref<FrameMatrixD> frames) {
+  const auto last = static_cast<double>(motion.rows() - 1);
+  for (Eigen::Index i = 0; i < frames.rows(); ++i) {
+    const double u = frames.rows() == 1
+                         ? 0.5 * last
+                         : static_cast<double>(i) * last / static_cast<double>(frames.rows() - 1);
+    const auto below = static_cast<Eigen::Index>(u);
+    const Eigen::Index above = std::min(below + 1, motion.rows() - 1);
+    const double share = u - static_cast<double>(below);
+    frames.row(i) = (1.0 - share) * motion.row(below) + share * motion.row(above);
+  }
+}
+
+// What is expected over all frames; without rows where some step that is shown expects nothing.
+FrameMatrixD expected_track(const std::vector<ConcatStep>& steps,
+                            std::span<const FrameMatrixD> expected, double rate_hz,
+                            const FrameMatrixD& like) {
+  if (expected.empty()) {
+    return {};
+  }
+  FrameMatrixD track = FrameMatrixD::Zero(like.rows(), like.cols());
+  const std::vector<FrameRange> ranges = share_out(steps, rate_hz);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (steps[i].shows() && ranges[i].count > 0) {
+      if (expected[i].rows() == 0) {
+        return {};
+      }
+      stretch(expected[i], track.middleRows(ranges[i].first, ranges[i].count));
+    }
+  }
+  return track;
+}
+
+// Of each stretch of frames that nodes show, the blend of all motions.
+FrameMatrixD blend_stretches(const std::vector<FrameMatrixD>& motions, const FrameMatrixD& track,
+                             const std::vector<std::uint8_t>& shown, double rate_hz,
+                             const BlendOptions& options) {
+  FrameMatrixD blended = motions.front();
+  const auto end = static_cast<std::ptrdiff_t>(shown.size());
+  for (std::ptrdiff_t begin = 0; begin < end;) {
+    const auto next = std::find(shown.begin() + begin, shown.end(), !shown[begin]) - shown.begin();
+    if (shown[static_cast<std::size_t>(begin)] != 0) {
+      std::vector<FrameMatrixD> stretches;
+      for (const FrameMatrixD& motion : motions) {
+        stretches.emplace_back(motion.middleRows(begin, next - begin));
+      }
+      const FrameMatrixD expected =
+          track.rows() == 0 ? FrameMatrixD() : FrameMatrixD(track.middleRows(begin, next - begin));
+      blended.middleRows(begin, next - begin) =
+          blend_motions(stretches, expected, rate_hz, options);
+    }
+    begin = next;
+  }
+  return blended;
+}
+
 } // namespace
 
 CoefficientMotion concatenate(const MotionTable& table, std::span<const ConcatStep> steps,
                               const ConcatOptions& options) {
-  check(table, steps, options);
-  const double end_s = steps.back().end_s;
-  const std::vector<ShownNode> shown_nodes = share_out_frames(steps, table.rate_hz);
+  const std::vector<ConcatStep> path(steps.begin(), steps.end());
+  return concatenate(table, std::span(&path, 1), {}, options);
+}
 
+CoefficientMotion concatenate(const MotionTable& table,
+                              std::span<const std::vector<ConcatStep>> paths,
+                              std::span<const FrameMatrixD> expected,
+                              const ConcatOptions& options) {
+  const std::vector<ConcatStep>& steps = paths.front();
+  for (const std::vector<ConcatStep>& path : paths) {
+    check(table, path, options);
+    check_same_transcript(path, steps);
+  }
+  if (!expected.empty() && expected.size() != steps.size()) {
+    throw InternalError({.what = "what is expected is not of the transcript that is blended"});
+  }
+  const double end_s = steps.back().end_s;
   CoefficientMotion motion;
   motion.rate_hz = table.rate_hz;
   motion.coefficients.setZero(frame_count_to(end_s, table.rate_hz), table.coefficients.cols());
-  FrameMatrixD& frames = motion.coefficients;
 
-  warp_nodes(frames, table, shown_nodes);
-  smooth_joins(frames, table, shown_nodes, options.smoothing_half_window);
-  std::vector<std::uint8_t> shown = mark_shown(frames.rows(), shown_nodes);
+  std::vector<FrameMatrixD> motions;
+  std::vector<ShownNode> shown_nodes;
+  for (const std::vector<ConcatStep>& path : paths) {
+    shown_nodes = share_out_frames(path, table.rate_hz);
+    FrameMatrixD& frames = motions.emplace_back(motion.coefficients);
+    warp_nodes(frames, table, shown_nodes);
+    smooth_joins(frames, table, shown_nodes, options.smoothing_half_window);
+  }
+  std::vector<std::uint8_t> shown = mark_shown(motion.coefficients.rows(), shown_nodes);
+  FrameMatrixD& frames = motion.coefficients;
+  frames = motions.size() == 1
+               ? std::move(motions.front())
+               : blend_stretches(motions, expected_track(steps, expected, table.rate_hz, frames),
+                                 shown, table.rate_hz, options.blend);
   if (steps.back().shows()) {
     hold_last_phoneme(frames, shown, shown_nodes);
   }

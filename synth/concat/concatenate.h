@@ -3,9 +3,11 @@
 
 #include "db/types/motion.h"
 #include "db/types/motion_table.h"
+#include "synth/concat/blend.h"
 #include "synth/concat/silence.h"
 
 #include <span>
+#include <vector>
 
 namespace phonomime {
 
@@ -24,6 +26,7 @@ struct ConcatStep {
 struct ConcatOptions {
   SilenceOptions silence;
   int smoothing_half_window = 3; // s of E16, in frames; 0 = no smoothing
+  BlendOptions blend;            // of several paths
 };
 
 // From path to motion at the database rate (E section VII-B, DESIGN sections 5 and 11), in the
@@ -40,6 +43,16 @@ struct ConcatOptions {
 // node that it has to show. Throws InternalError where steps, table or options break this,
 // InputError where the transcript is longer than 10,000,000 frames.
 CoefficientMotion concatenate(const MotionTable& table, std::span<const ConcatStep> steps,
+                              const ConcatOptions& options = {});
+
+// The same of several paths through one transcript: each is warped and smoothed, the stretches
+// between the pauses are blended (blend_motions), then /pau/ is filled. The paths differ in `node`
+// and `captured` alone. `expected`: one a step, the motion that is expected there, from its start
+// to its end, any number of frames by #dimensions; none for a step where nothing is, none at all
+// where nothing is anywhere. Throws InternalError where these do not fit each other.
+CoefficientMotion concatenate(const MotionTable& table,
+                              std::span<const std::vector<ConcatStep>> paths,
+                              std::span<const FrameMatrixD> expected,
                               const ConcatOptions& options = {});
 
 } // namespace phonomime

@@ -27,6 +27,15 @@ std::string join_word(const nlohmann::json& row, bool first) {
   return first ? "start" : "joined";
 }
 
+// The terms beyond the paper's; a result of an earlier version has none.
+double fit_cost(const nlohmann::json& cost) {
+  double sum = 0.0;
+  for (const char* term : {"target", "context", "duration", "position"}) {
+    sum += cost.value(term, 0.0);
+  }
+  return sum;
+}
+
 std::string runners_up_text(const nlohmann::json& row) {
   std::string text;
   for (const nlohmann::json& other : row["runners_up"]) {
@@ -47,12 +56,13 @@ std::size_t longest_key(const nlohmann::json& path) {
 }
 
 std::string totals(const nlohmann::json& result) {
-  double observation = 0.0, emotion = 0.0, transition = 0.0;
+  double observation = 0.0, emotion = 0.0, fit = 0.0, transition = 0.0;
   int phonemes = 0, joins = 0, captured = 0;
   bool first = true;
   for (const nlohmann::json& row : result["path"]) {
     observation += row["cost"]["observation"].get<double>();
     emotion += row["cost"]["emotion"].get<double>();
+    fit += fit_cost(row["cost"]);
     transition += row["cost"]["transition"].get<double>();
     phonemes += row["phoneme"].get_ref<const std::string&>() == kSilence ? 0 : 1;
     if (!row["node"].is_null()) {
@@ -61,10 +71,14 @@ std::string totals(const nlohmann::json& result) {
       first = false;
     }
   }
+  const std::size_t others = result.value("blend", nlohmann::json::array()).size();
+  const std::string blended =
+      others == 0 ? "" : fmt::format("; {} more paths are blended with this one", others);
   return fmt::format("{} sounding phonemes: cost {:.1f} = observation {:.1f} + emotion {:.1f} + "
-                     "transition {:.1f}, {} of {} joins between chosen nodes as recorded\n",
-                     phonemes, result["cost"].get<double>(), observation, emotion, transition,
-                     captured, joins);
+                     "fit {:.1f} + transition {:.1f}, {} of {} joins between chosen nodes as "
+                     "recorded{}\n",
+                     phonemes, result["cost"].get<double>(), observation, emotion, fit, transition,
+                     captured, joins, blended);
 }
 
 } // namespace
@@ -74,22 +88,22 @@ std::string explain_result(std::string_view json_text, std::string_view where) {
   const nlohmann::json& path = result["path"];
   const std::size_t width = longest_key(path);
   std::string text = totals(result);
-  text +=
-      fmt::format("{:>3}  {:>7}  {:>7}  {:<4}  {:<10}  {:<{}}  {:<8}  {:>8}  {:>8}  {:>10}  {}\n",
-                  "row", "start", "end", "ph", "emotion", "node", width, "join", "phoneme",
-                  "emotion", "transition", "runners-up (what they would cost more)");
+  text += fmt::format(
+      "{:>3}  {:>7}  {:>7}  {:<4}  {:<10}  {:<{}}  {:<8}  {:>8}  {:>8}  {:>7}  {:>10}  {}\n", "row",
+      "start", "end", "ph", "emotion", "node", width, "join", "phoneme", "emotion", "fit",
+      "transition", "runners-up (what they would cost more)");
   bool first = true;
   for (const nlohmann::json& row : path) {
     const bool has_node = row["node"].is_string();
     const std::string node = has_node ? row["node"].get<std::string>() : "-";
     text +=
         fmt::format("{:>3}  {:>7.3f}  {:>7.3f}  {:<4}  {:<10}  {:<{}}  {:<8}  {:>8.1f}  {:>8.1f}  "
-                    "{:>10.1f}  {}",
+                    "{:>7.1f}  {:>10.1f}  {}",
                     row["index"].get<long>(), row["start"].get<double>(), row["end"].get<double>(),
                     row["phoneme"].get<std::string>(), row["emotion"].get<std::string>(), node,
                     width, join_word(row, first), row["cost"]["observation"].get<double>(),
-                    row["cost"]["emotion"].get<double>(), row["cost"]["transition"].get<double>(),
-                    runners_up_text(row));
+                    row["cost"]["emotion"].get<double>(), fit_cost(row["cost"]),
+                    row["cost"]["transition"].get<double>(), runners_up_text(row));
     text.erase(text.find_last_not_of(' ') + 1);
     text += row["constrained"].get<bool>() ? "  [use]\n" : "\n";
     first = first && !has_node;

@@ -30,9 +30,10 @@ nlohmann::ordered_json row_to_json(const MotionTable& table, const PathRow& row,
       json["recorded"]["closed"] = *closed;
     }
   }
-  json["cost"] = {{"observation", row.cost.observation},
-                  {"emotion", row.cost.emotion},
-                  {"transition", row.cost.transition}};
+  json["cost"] = {{"observation", row.cost.observation}, {"emotion", row.cost.emotion},
+                  {"transition", row.cost.transition},   {"target", row.cost.fit.target},
+                  {"context", row.cost.fit.context},     {"duration", row.cost.fit.duration},
+                  {"position", row.cost.fit.position}};
   json["runners_up"] = nlohmann::ordered_json::array();
   for (const RunnerUp& other : row.runners_up) {
     json["runners_up"].push_back({{"node", table.key(other.node)}, {"delta", other.delta}});
@@ -55,6 +56,17 @@ nlohmann::ordered_json result_to_json(const MotionTable& table, const SynthesisR
   json["path"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     json["path"].push_back(row_to_json(table, result.rows[i], i));
+  }
+  json["weight"] = result.weight;
+  json["expected_weight"] = result.expected_weight;
+  json["blend"] = nlohmann::ordered_json::array();
+  for (const BlendedPath& path : result.blended) {
+    nlohmann::ordered_json nodes = nlohmann::ordered_json::array();
+    for (const NodeIndex node : path.nodes) {
+      nodes.push_back(node == kNoNode ? nlohmann::ordered_json()
+                                      : nlohmann::ordered_json(table.key(node)));
+    }
+    json["blend"].push_back({{"weight", path.weight}, {"cost", path.cost}, {"nodes", nodes}});
   }
   json["search"] = {{"nodes", table.nodes.size()},
                     {"seconds", result.search_seconds},

@@ -19,6 +19,7 @@ struct SynthesisInput {
   std::vector<EmotionModifier> emotions; // one for each row of the transcript
   std::vector<NodeConstraint> constraints;
   CostWeights weights;
+  int blend = 1; // node-disjoint paths that are blended, at least 1
   SearchOptions search;
   ConcatOptions concat;
   double fps = 30.0; // of SynthesisResult::output
@@ -35,18 +36,29 @@ struct PathRow {
   std::vector<RunnerUp> runners_up;
 };
 
+// A path that is blended with the best one.
+struct BlendedPath {
+  double weight = 0.0;          // of its motion
+  double cost = 0.0;            // E4
+  std::vector<NodeIndex> nodes; // one for each row of the transcript, as PathRow::node
+};
+
 struct SynthesisResult {
-  double cost = 0.0; // E4
-  std::vector<PathRow> rows;
-  CoefficientMotion motion; // at the database's rate
-  CoefficientMotion output; // at SynthesisInput::fps
+  double cost = 0.0;                // E4
+  std::vector<PathRow> rows;        // of the best path
+  double weight = 1.0;              // of its motion
+  double expected_weight = 0.0;     // of the motion that is expected of the words
+  std::vector<BlendedPath> blended; // the others, cheapest first
+  CoefficientMotion motion;         // at the database's rate
+  CoefficientMotion output;         // at SynthesisInput::fps
   std::vector<std::string> warnings;
   SearchCounts counts;
   double search_seconds = 0.0; // wall clock
   double end_s = 0.0;          // of the transcript
 };
 
-// The recipe: transcript -> search -> concatenate -> resample. `search` keeps what it knows of the
+// The recipe: transcript -> search -> concatenate -> resample. A path whose joins are all captured
+// is a recording, and is not blended. `search` keeps what it knows of the
 // table between calls. Throws InputError (see make_transcript_steps) and Interrupted.
 SynthesisResult synthesize(const MotionTable& table, ViterbiSearch& search,
                            const SynthesisInput& input, const Progress& progress = {});

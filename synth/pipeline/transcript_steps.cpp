@@ -50,6 +50,27 @@ std::vector<RowConstraint> constraints_per_row(const MotionTable& table,
   return rows;
 }
 
+// Surroundings of the rows of a transcript that are no silence; the others' stay empty.
+std::vector<Surroundings> asked_surroundings(const MotionTable& table,
+                                             std::span<const TimedPhoneme> transcript) {
+  constexpr double kHole_s = 1e-6;
+  std::vector<SpokenPhoneme> utterance;
+  for (const TimedPhoneme& row : transcript) {
+    if (!row.is_silence()) {
+      utterance.push_back(
+          {row.start_s, row.end_s, table.find_phoneme(row.phoneme.name).value_or(-1)});
+    }
+  }
+  std::vector<Surroundings> surroundings(transcript.size());
+  std::size_t spoken = 0;
+  for (std::size_t row = 0; row < transcript.size(); ++row) {
+    if (!transcript[row].is_silence()) {
+      surroundings[row] = surroundings_of(utterance, spoken++, kHole_s);
+    }
+  }
+  return surroundings;
+}
+
 } // namespace
 
 std::int32_t find_asked_emotion(const MotionTable& table, const EmotionModifier& asked,
@@ -126,10 +147,12 @@ TranscriptSteps make_transcript_steps(const MotionTable& table,
   }
   result.first_row = first;
   UnrecordedPhonemes unrecorded(table);
+  const std::vector<Surroundings> surroundings = asked_surroundings(table, transcript);
   for (std::size_t row = first; row < end; ++row) {
     const Phoneme& phoneme = transcript[row].phoneme;
     result.used.push_back(rows[row].use.has_value());
     result.steps.push_back(make_search_step(table, phoneme, emotions[row], std::move(rows[row])));
+    result.steps.back().surroundings = surroundings[row];
     unrecorded.warn_of(phoneme, result.steps.back(), result.warnings);
   }
   return result;

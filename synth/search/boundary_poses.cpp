@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/boundary_poses.h"
 
+#include "synth/search/group_weights.h"
 #include "synth/search/vector_dispatch.h"
 #include "synth/search/vector_lanes.h"
 
@@ -65,18 +66,19 @@ void write_end(const double* edge, const double* before, const double* after, do
 
 } // namespace
 
-BoundaryPoses::BoundaryPoses(const MotionTable& table)
+BoundaryPoses::BoundaryPoses(const MotionTable& table, const CostWeights& weights)
     : table_(table), channels_per_group_(table.layout.channels_per_group()),
       group_stride_(padded(table.layout.group_count())),
       planes_(static_cast<std::size_t>(channels_per_group_) * group_stride_),
       mean_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(planes_))),
       basis_(FrameMatrixD::Zero(table.pca.dimension_count(), static_cast<Eigen::Index>(planes_))),
       records_(table.nodes.size(), 4 * planes_) {
+  const Eigen::MatrixXd basis = weighted_basis(table, weights);
   for (Eigen::Index c = 0; c < table.pca.channel_count(); ++c) {
     const Eigen::Index place = c % channels_per_group_ * static_cast<Eigen::Index>(group_stride_) +
                                c / channels_per_group_;
     mean_[place] = table.pca.mean[c];
-    basis_.col(place) = table.pca.basis.row(c).transpose();
+    basis_.col(place) = basis.row(c).transpose();
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "db/types/motion_table.h"
 #include "synth/search/node_records.h"
+#include "synth/search/search_types.h"
 
 #include <span>
 
@@ -11,11 +12,12 @@ namespace phonomime {
 // The poses and velocities at the two ends of motion nodes, which E8 and E9 compare. From the E11
 // reconstruction in double, ((mean + e0 c0) + e1 c1) + ..., rounded to float once. A velocity is
 // the one-sided difference inside the node times the rate, in mm/s (or weight/s); 0 for one frame.
+// Basis rows are times the weight of their group (group_weights.h).
 //
 // Kept only for the nodes asked for: a database of 80,000 nodes would need 350 MB for all.
 class BoundaryPoses {
 public:
-  explicit BoundaryPoses(const MotionTable& table);
+  BoundaryPoses(const MotionTable& table, const CostWeights& weights);
 
   // Computes what is not yet there for these nodes. Not for parallel regions (it has its own).
   void ensure(std::span<const NodeIndex> nodes);

@@ -22,17 +22,22 @@ struct NamedWeight {
   const char* name;
   double CostWeights::*member;
 };
-constexpr std::array<NamedWeight, 7> kNamedWeights = {{{"alpha1", &CostWeights::alpha1},
-                                                       {"alpha2", &CostWeights::alpha2},
-                                                       {"alpha3", &CostWeights::alpha3},
-                                                       {"alpha4", &CostWeights::alpha4},
-                                                       {"alpha5", &CostWeights::alpha5},
-                                                       {"alpha6", &CostWeights::alpha6},
-                                                       {"pnt", &CostWeights::pnt}}};
+constexpr std::array<NamedWeight, 12> kNamedWeights = {{{"alpha1", &CostWeights::alpha1},
+                                                        {"alpha2", &CostWeights::alpha2},
+                                                        {"alpha3", &CostWeights::alpha3},
+                                                        {"alpha4", &CostWeights::alpha4},
+                                                        {"alpha5", &CostWeights::alpha5},
+                                                        {"alpha6", &CostWeights::alpha6},
+                                                        {"pnt", &CostWeights::pnt},
+                                                        {"target", &CostWeights::target},
+                                                        {"context", &CostWeights::context},
+                                                        {"duration", &CostWeights::duration},
+                                                        {"position", &CostWeights::position},
+                                                        {"off_lips", &CostWeights::off_lips}}};
 
 } // namespace
 
-CostWeights default_cost_weights(const MotionTable& table) {
+CostWeights default_cost_weights(const MotionTable& table, CostModel model) {
   // Markers: a gap of 1 mm counts like a change of velocity of 20 mm/s (what it takes to close the
   // gap within 50 ms). Blendshape weights move on the same time scale. Phoneme and emotion are
   // asked for by the user: missing either costs more than several bad joins.
@@ -43,6 +48,14 @@ CostWeights default_cost_weights(const MotionTable& table) {
   weights.alpha4 = 0.4;
   weights.alpha5 = 10.0;
   weights.alpha6 = 10.0;
+  if (model == CostModel::context) {
+    // Found on grid_s1 by cross-validation, see docs/cost.md.
+    weights.target = 0.6;
+    weights.context = 1.0;
+    weights.duration = 0.3;
+    weights.position = 0.0;
+    weights.off_lips = 0.5;
+  }
   weights.pnt = median_ordinary_join(table, weights);
   return weights;
 }
@@ -103,6 +116,12 @@ void check_cost_weights(const CostWeights& weights, std::string_view where) {
                       .what = "alpha4 is out of range",
                       .expected = "a number between 0 and 1, both excluded",
                       .got = format_number(weights.alpha4)});
+  }
+  if (weights.off_lips > 1.0) {
+    throw InputError({.where = std::string(where),
+                      .what = "off_lips is out of range",
+                      .expected = "a number from 0 to 1",
+                      .got = format_number(weights.off_lips)});
   }
 }
 

@@ -47,7 +47,7 @@ exact_runners_up(SearchSpace& space, std::span<const SearchStep> steps,
 
 SearchSpace::SearchSpace(const MotionTable& motion_table, const CostWeights& cost_weights)
     : table(motion_table), weights(cost_weights), classes(motion_table),
-      kernels(motion_table, cost_weights) {
+      fit(motion_table, cost_weights), kernels(motion_table, cost_weights) {
   check_cost_weights(weights, "cost weights");
   if (table.nodes.empty()) {
     throw InputError({.what = "the database has no motion node that a search may use",
@@ -55,11 +55,11 @@ SearchSpace::SearchSpace(const MotionTable& motion_table, const CostWeights& cos
   }
 }
 
-std::vector<StepPenalties> SearchSpace::penalties(std::span<const SearchStep> steps) const {
+std::vector<StepPenalties> SearchSpace::penalties(std::span<const SearchStep> steps) {
   std::vector<StepPenalties> all;
   all.reserve(steps.size());
   for (const SearchStep& step : steps) {
-    all.emplace_back(table, classes, step, weights);
+    all.emplace_back(table, classes, step, weights, fit);
   }
   return all;
 }

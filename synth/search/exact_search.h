@@ -38,11 +38,13 @@ struct SearchSpace {
   // Throws InputError for weights outside their range and a table without nodes.
   SearchSpace(const MotionTable& motion_table, const CostWeights& cost_weights);
 
-  std::vector<StepPenalties> penalties(std::span<const SearchStep> steps) const;
+  // Not for parallel regions. The steps must outlive it.
+  std::vector<StepPenalties> penalties(std::span<const SearchStep> steps);
 
   const MotionTable& table;
   CostWeights weights;
   NodeClasses classes;
+  ContextFit fit;
   JoinKernels kernels;
 };
 

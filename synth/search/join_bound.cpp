@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/join_bound.h"
 
+#include "synth/search/group_weights.h"
 #include "synth/search/motion_clusters.h"
 #include "synth/search/vector_dispatch.h"
 #include "synth/search/vector_lanes.h"
@@ -19,12 +20,12 @@ int cluster_count(const Layout& layout) {
   return std::min(static_cast<int>(kClusterStride), layout.group_count());
 }
 
-FrameMatrixD cluster_rows(const MotionTable& table, double scale) {
+FrameMatrixD cluster_rows(const MotionTable& table, const CostWeights& weights, double scale) {
   const auto axes = static_cast<Eigen::Index>(table.layout.channels_per_group());
   constexpr auto kStride = static_cast<Eigen::Index>(kClusterStride);
   FrameMatrixD rows = FrameMatrixD::Zero(axes * kStride, table.pca.dimension_count());
   const std::vector<Eigen::MatrixXd> clusters =
-      cluster_channel_groups(table, cluster_count(table.layout));
+      cluster_channel_groups(table, weighted_basis(table, weights), cluster_count(table.layout));
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     for (Eigen::Index axis = 0; axis < axes; ++axis) {
       rows.row(axis * kStride + static_cast<Eigen::Index>(c)) = scale * clusters[c].row(axis);
@@ -55,7 +56,8 @@ float summed_cluster_norms(const float* a, const float* b, int axes, float enoug
 
 JoinBound::JoinBound(const MotionTable& table, const CostWeights& weights, double largest_frame)
     : axes_(table.layout.channels_per_group()),
-      features_(table, cluster_rows(table, weights.alpha3), cluster_rows(table, 1.0),
+      features_(table, cluster_rows(table, weights, weights.alpha3),
+                cluster_rows(table, weights, 1.0),
                 static_cast<std::size_t>(axes_) * kClusterStride),
       margin_(features_.rounding_margin(weights.alpha3, largest_frame)),
       records_(table.nodes.size(), 2 * features_.end_floats()) {}

@@ -84,7 +84,7 @@ double summed_second_differences(const float* source, std::int32_t source_count,
 } // namespace
 
 JoinCost::JoinCost(const MotionTable& table, const CostWeights& weights)
-    : table_(table), weights_(weights), poses_(table) {}
+    : table_(table), weights_(weights), poses_(table, weights) {}
 
 double JoinCost::position_gap(NodeIndex from, NodeIndex to) const {
   return summed_group_norms(poses_.last(from), poses_.first(to), poses_.group_stride(),

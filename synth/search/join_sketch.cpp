@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/join_sketch.h"
 
+#include "synth/search/group_weights.h"
 #include "synth/search/linear_features.h"
 #include "synth/search/motion_clusters.h"
 
@@ -151,8 +152,8 @@ std::int32_t join_viseme(const MotionTable& table, NodeEnd which, NodeIndex node
 JoinSketch::JoinSketch(const MotionTable& table, const CostWeights& weights, double largest_frame)
     : first_(table.nodes.size() * kFeatures), last_(table.nodes.size() * kFeatures) {
   const Eigen::Index axes_each = std::min(2, table.layout.channels_per_group());
-  const std::vector<Eigen::MatrixXd> clusters =
-      cluster_channel_groups(table, static_cast<int>(kHalf / axes_each));
+  const std::vector<Eigen::MatrixXd> clusters = cluster_channel_groups(
+      table, weighted_basis(table, weights), static_cast<int>(kHalf / axes_each));
   const Eigen::MatrixXd pose_covariance = table.pca.variance.cwiseMax(0.0).asDiagonal();
   const LinearFeatures features(table,
                                 sketch_rows(clusters, pose_covariance, axes_each, weights.alpha3),

@@ -62,12 +62,13 @@ std::size_t nearest_centre(const Eigen::MatrixXd& rows,
 
 } // namespace
 
-std::vector<Eigen::MatrixXd> cluster_channel_groups(const MotionTable& table, int count) {
+std::vector<Eigen::MatrixXd> cluster_channel_groups(const MotionTable& table,
+                                                    const Eigen::MatrixXd& basis, int count) {
   const int axes = table.layout.channels_per_group();
   const Eigen::VectorXd deviation = table.pca.variance.cwiseMax(0.0).cwiseSqrt();
   std::vector<Eigen::MatrixXd> rows;
   for (int g = 0; g < table.layout.group_count(); ++g) {
-    rows.emplace_back(table.pca.basis.middleRows(axes * g, axes) * deviation.asDiagonal());
+    rows.emplace_back(basis.middleRows(axes * g, axes) * deviation.asDiagonal());
   }
   const auto clusters = static_cast<std::size_t>(std::clamp(count, 1, table.layout.group_count()));
   std::vector<Eigen::MatrixXd> centres = seed_centres(rows, clusters);
@@ -83,7 +84,7 @@ std::vector<Eigen::MatrixXd> cluster_channel_groups(const MotionTable& table, in
       const Eigen::MatrixXd turn = procrustes(rows[g], centres[c]).matrix;
       sums[c] += turn * rows[g];
       ++members[c];
-      projections[c] += turn * table.pca.basis.middleRows(axes * static_cast<int>(g), axes);
+      projections[c] += turn * basis.middleRows(axes * static_cast<int>(g), axes);
     }
     for (std::size_t c = 0; c < clusters; ++c) {
       if (members[c] > 0) {

@@ -8,7 +8,7 @@
 namespace phonomime {
 
 NodeClasses::NodeClasses(const MotionTable& table)
-    : nodes_(table.nodes.size()), class_of_(table.nodes.size()) {
+    : nodes_(table.nodes.size()), class_of_(table.nodes.size()), place_of_(table.nodes.size()) {
   const auto key = [&](NodeIndex node) {
     const MotionNode& info = table.nodes[static_cast<std::size_t>(node)];
     return std::tuple(info.phoneme, info.viseme, info.emotion);
@@ -19,7 +19,9 @@ NodeClasses::NodeClasses(const MotionTable& table)
     if (i == 0 || key(nodes_[i]) != key(nodes_[i - 1])) {
       begins_.push_back(i);
     }
-    class_of_[static_cast<std::size_t>(nodes_[i])] = static_cast<std::int32_t>(begins_.size()) - 1;
+    const auto node = static_cast<std::size_t>(nodes_[i]);
+    class_of_[node] = static_cast<std::int32_t>(begins_.size()) - 1;
+    place_of_[node] = static_cast<std::int32_t>(i - begins_.back());
   }
   begins_.push_back(nodes_.size());
 }

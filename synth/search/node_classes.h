@@ -22,6 +22,11 @@ public:
                                      begins_[class_index + 1] - begins_[class_index]);
   }
 
+  // Of a node in its class.
+  std::size_t place_of(NodeIndex node) const {
+    return static_cast<std::size_t>(place_of_[static_cast<std::size_t>(node)]);
+  }
+
   std::size_t class_of(NodeIndex node) const {
     return static_cast<std::size_t>(class_of_[static_cast<std::size_t>(node)]);
   }
@@ -30,6 +35,7 @@ private:
   std::vector<NodeIndex> nodes_;
   std::vector<std::size_t> begins_;
   std::vector<std::int32_t> class_of_; // per node
+  std::vector<std::int32_t> place_of_; // per node
 };
 
 } // namespace phonomime

@@ -28,7 +28,7 @@ SearchStep without_constraints(const SearchStep& step) {
 
 bool same_free_step(const SearchStep& a, const SearchStep& b) {
   return a.phoneme == b.phoneme && a.viseme == b.viseme && a.emotion == b.emotion &&
-         a.is_silence == b.is_silence;
+         a.is_silence == b.is_silence && a.surroundings == b.surroundings;
 }
 
 // One edited transcript: bounds of the free one are admissible for it.

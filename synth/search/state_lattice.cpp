@@ -30,8 +30,10 @@ std::vector<Candidate> possible_candidates(const LatticeInput& input, std::size_
     }
   };
   const double inactive = penalties.least_beyond(to_go.active_penalty) + to_go.inactive_bound;
-  if (least_before + inactive <= budget) {
-    for (const NodeIndex node : penalties.nodes_up_to(budget)) {
+  if (to_go.inactive_bound < kInfinity && least_before + inactive <= budget) {
+    // No bound is below that of the inactive nodes.
+    for (const NodeIndex node :
+         penalties.nodes_up_to(budget - least_before - to_go.inactive_bound)) {
       add(node, to_go[node]);
     }
   } else {
@@ -134,6 +136,7 @@ NodePath best_path(const LatticeInput& input, const Lattice& lattice) {
     path.steps[t].observation =
         observation_cost(input.steps[t], info, input.kernels.cost.weights());
     path.steps[t].emotion = emotion_cost(input.steps[t], info, input.kernels.cost.weights());
+    path.steps[t].fit = input.penalties[t].fit_of(path.nodes[t]);
     path.steps[t].transition =
         t == 0 ? 0.0 : input.kernels.cost.transition(path.nodes[t - 1], path.nodes[t]);
   }

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 
 namespace phonomime {
 
@@ -36,38 +38,105 @@ bool is_allowed(const SearchStep& step, NodeIndex node) {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kWorthThreads = 256;
+
+} // namespace
+
+namespace {
+
+constexpr double kNear = 2.0; // PNT
 
 } // namespace
 
 StepPenalties::StepPenalties(const MotionTable& table, const NodeClasses& classes,
-                             const SearchStep& step, const CostWeights& weights)
-    : classes_(classes), step_(step), least_(kInfinity), near_(kInfinity) {
+                             const SearchStep& step, const CostWeights& weights, ContextFit& fit)
+    : StepPenalties(classes, step, fit, make_free(table, classes, step, weights, fit),
+                    weights.pnt) {}
+
+std::shared_ptr<const StepPenalties::Free>
+StepPenalties::make_free(const MotionTable& table, const NodeClasses& classes,
+                         const SearchStep& step, const CostWeights& weights, ContextFit& fit) {
+  auto free = std::make_shared<Free>();
   for (std::size_t c = 0; c < classes.size(); ++c) {
     const NodeIndex any = classes.nodes(c).front();
-    by_class_.push_back(step_penalty(step, table.nodes[static_cast<std::size_t>(any)], weights));
+    free->by_class.push_back(
+        step_penalty(step, table.nodes[static_cast<std::size_t>(any)], weights));
   }
+  free->order.resize(classes.size());
+  std::iota(free->order.begin(), free->order.end(), std::size_t{0});
+  std::ranges::stable_sort(free->order, {}, [&](std::size_t c) { return free->by_class[c]; });
+  if (fit.counts()) {
+    free->wish = fit.wish(step, classes);
+  }
+  if (!free->wish.asks) {
+    return free;
+  }
+  free->fits.resize(classes.size());
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    if (free->by_class[c] > free->by_class[free->order.front()] + kNear * weights.pnt) {
+      continue;
+    }
+    const std::span<const NodeIndex> nodes = classes.nodes(c);
+    fit.ensure(nodes);
+    std::vector<double>& sums = free->fits[c];
+    sums.resize(nodes.size());
+#pragma omp parallel for schedule(static) if (nodes.size() > kWorthThreads)
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      sums[i] = fit.fit(free->wish, nodes[i], true).sum();
+    }
+  }
+  return free;
+}
+
+StepPenalties::StepPenalties(const NodeClasses& classes, const SearchStep& step,
+                             const ContextFit& fit, std::shared_ptr<const Free> free, double pnt)
+    : classes_(classes), step_(step), fit_(fit), free_(std::move(free)), pnt_(pnt),
+      least_(kInfinity), near_(kInfinity) {
   const auto add = [&](std::span<const NodeIndex> nodes) {
-    const auto open =
-        std::ranges::find_if(nodes, [&](NodeIndex node) { return (*this)[node] < kInfinity; });
-    if (open != nodes.end()) {
-      least_ = std::min(least_, (*this)[*open]);
+    for (const NodeIndex node : nodes) {
+      const double penalty = (*this)[node];
+      least_ = std::min(least_, penalty);
+      if (!free_->wish.asks && penalty < kInfinity) {
+        return; // all of them have the same
+      }
     }
   };
   for (const NodeIndex& node : step.allowed) {
     add(std::span(&node, 1));
   }
-  for (std::size_t c = 0; step.allowed.empty() && c < classes.size(); ++c) {
+  for (const std::size_t c : free_->order) {
+    if (!step.allowed.empty() || free_->by_class[c] >= least_) {
+      break;
+    }
     add(classes.nodes(c));
   }
   if (least_ == kInfinity) {
     throw InternalError({.what = "a step of the search has no node that is allowed"});
   }
-  constexpr double kNear = 2.0; // PNT
-  near_ = least_ + kNear * weights.pnt;
+  near_ = least_ + kNear * pnt;
+}
+
+StepPenalties StepPenalties::under(const SearchStep& step) const {
+  return {classes_, step, fit_, free_, pnt_};
 }
 
 double StepPenalties::operator[](NodeIndex node) const {
-  return is_allowed(step_, node) ? by_class_[classes_.class_of(node)] : kInfinity;
+  if (!is_allowed(step_, node)) {
+    return kInfinity;
+  }
+  const std::size_t c = classes_.class_of(node);
+  if (!free_->wish.asks) {
+    return free_->by_class[c];
+  }
+  const std::vector<double>& known = free_->fits[c];
+  return free_->by_class[c] + (known.empty() ? fit_.fit(free_->wish, node, false).sum()
+                                             : known[classes_.place_of(node)]);
+}
+
+FitCost StepPenalties::fit_of(NodeIndex node) const {
+  return free_->wish.asks
+             ? fit_.fit(free_->wish, node, !free_->fits[classes_.class_of(node)].empty())
+             : FitCost{};
 }
 
 std::vector<NodeIndex> StepPenalties::nodes_up_to(double most) const {
@@ -78,8 +147,14 @@ std::vector<NodeIndex> StepPenalties::nodes_up_to(double most) const {
   };
   append(step_.allowed);
   for (std::size_t c = 0; step_.allowed.empty() && c < classes_.size(); ++c) {
-    if (by_class_[c] <= most) {
+    if (free_->by_class[c] > most) {
+      continue;
+    }
+    if (!free_->wish.asks || most == kInfinity) {
       append(classes_.nodes(c));
+    } else {
+      std::ranges::copy_if(classes_.nodes(c), std::back_inserter(members),
+                           [&](NodeIndex node) { return (*this)[node] <= most; });
     }
   }
   std::ranges::sort(members);
@@ -89,8 +164,10 @@ std::vector<NodeIndex> StepPenalties::nodes_up_to(double most) const {
 double StepPenalties::least_beyond(double most) const {
   double least = kInfinity;
   for (std::size_t c = 0; step_.allowed.empty() && c < classes_.size(); ++c) {
-    if (by_class_[c] > most) {
-      least = std::min(least, by_class_[c]);
+    if (free_->by_class[c] > most) {
+      least = std::min(least, free_->by_class[c]);
+    } else if (free_->wish.asks && most < kInfinity) {
+      least = std::min(least, most); // nodes of the class may lie just above
     }
   }
   return least;

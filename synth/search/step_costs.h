@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "synth/search/context_fit.h"
 #include "synth/search/node_classes.h"
 #include "synth/search/search_types.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace phonomime {
@@ -15,20 +17,25 @@ double observation_cost(const SearchStep& step, const MotionNode& node, const Co
 // EMP of E5.
 double emotion_cost(const SearchStep& step, const MotionNode& node, const CostWeights& weights);
 
-// OC + EMP of a node at a step.
+// OC + EMP of a node at a step: the paper's part of a step's penalty.
 double step_penalty(const SearchStep& step, const MotionNode& node, const CostWeights& weights);
 
 // B of E10: whether the node may stand at the step.
 bool is_allowed(const SearchStep& step, NodeIndex node);
 
-// OC + EMP of the nodes of a table at one step, infinite where B blocks a node.
+// (OC + EMP) + fit of the nodes of a table at one step, infinite where B blocks a node.
 class StepPenalties {
 public:
-  // Keeps references to `classes` and `step`. Throws InternalError where B blocks every node.
+  // Keeps references to `classes`, `step` and `fit`. Not for parallel regions. Throws InternalError
+  // where B blocks every node.
   StepPenalties(const MotionTable& table, const NodeClasses& classes, const SearchStep& step,
-                const CostWeights& weights);
+                const CostWeights& weights, ContextFit& fit);
+
+  // The same under the constraints of `step`, which asks for the same otherwise.
+  StepPenalties under(const SearchStep& step) const;
 
   double operator[](NodeIndex node) const;
+  FitCost fit_of(NodeIndex node) const;
   double least() const { return least_; } // of the nodes that are not blocked
 
   // The most that a node near the least has: 2 PNT above it. Nodes further off are looked at only
@@ -44,9 +51,24 @@ public:
   std::int64_t allowed_count() const;
 
 private:
+  // What does not depend on constraints.
+  struct Free {
+    std::vector<double> by_class;   // OC + EMP
+    std::vector<std::size_t> order; // of the classes, cheapest first
+    ContextFit::Wish wish;
+    std::vector<std::vector<double>> fits; // per class its nodes', or empty: not known ahead
+  };
+  static std::shared_ptr<const Free> make_free(const MotionTable& table, const NodeClasses& classes,
+                                               const SearchStep& step, const CostWeights& weights,
+                                               ContextFit& fit);
+  StepPenalties(const NodeClasses& classes, const SearchStep& step, const ContextFit& fit,
+                std::shared_ptr<const Free> free, double pnt);
+
   const NodeClasses& classes_;
   const SearchStep& step_;
-  std::vector<double> by_class_;
+  const ContextFit& fit_;
+  std::shared_ptr<const Free> free_;
+  double pnt_;
   double least_;
   double near_;
 };

@@ -53,7 +53,7 @@ StreamingSearch::StreamingSearch(ViterbiSearch& search, int look_ahead,
 }
 
 StepStates StreamingSearch::first_states(const SearchStep& step) const {
-  const StepPenalties penalties(space_.table, space_.classes, step, space_.weights);
+  const StepPenalties penalties(space_.table, space_.classes, step, space_.weights, space_.fit);
   StepStates states;
   for (const NodeIndex node : penalties.nodes_up_to(penalties.near())) {
     states.append(node, penalties[node], {penalties[node], kNoNode});
@@ -63,7 +63,7 @@ StepStates StreamingSearch::first_states(const SearchStep& step) const {
 }
 
 StepStates StreamingSearch::next_states(const StepStates& before, const SearchStep& step) const {
-  const StepPenalties penalties(space_.table, space_.classes, step, space_.weights);
+  const StepPenalties penalties(space_.table, space_.classes, step, space_.weights, space_.fit);
   const std::vector<NodeIndex> nodes = penalties.nodes_up_to(penalties.near());
   // Recorded successions cost nothing, and where they fill the width nothing dearer is needed.
   std::vector<double> recorded;
@@ -99,7 +99,8 @@ StepStates StreamingSearch::next_states(const StepStates& before, const SearchSt
 
 std::vector<NodeIndex> StreamingSearch::push(const SearchStep& step) {
   const ThreadCount threads(threads_);
-  const StepPenalties allowed(space_.table, space_.classes, step, space_.weights); // or throws
+  const StepPenalties allowed(space_.table, space_.classes, step, space_.weights,
+                              space_.fit); // or throws
   steps_.push_back(step);
   const SearchStep& own = steps_.back();
   columns_.push_back(
@@ -170,7 +171,7 @@ double StreamingSearch::lower_bound() {
   const RelaxedRecursion recursion(space_.kernels, JoinFrontier::Side::earlier);
   JoinFrontier::Counts counts;
   const auto penalties_of = [&](std::size_t t) {
-    return StepPenalties(space_.table, space_.classes, steps_[t], space_.weights);
+    return StepPenalties(space_.table, space_.classes, steps_[t], space_.weights, space_.fit);
   };
   for (; bounded_steps_ < steps_.size(); ++bounded_steps_) {
     const std::size_t t = bounded_steps_;

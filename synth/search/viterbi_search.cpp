@@ -64,17 +64,16 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
   }
   const ThreadCount threads(options.threads);
   JoinFrontier::Counts counts;
-  const std::vector<StepPenalties> free = space_.penalties(steps);
-  const std::vector<StepBounds> to_go = bounds_to_go(space_.kernels, free, progress, counts);
-  // Bounds without the bans go on to hold under them.
-  const auto solve = [&](std::span<const SearchStep> allowed,
-                         std::span<const StepPenalties> penalties, const SearchOptions& asked) {
-    const double upper_bound = cost_of_path(
-        space_.kernels, penalties, path_along(to_go, space_.kernels, penalties, counts), counts);
+  const auto solve = [&](std::span<const SearchStep> asked,
+                         std::span<const StepPenalties> penalties, const SearchOptions& wanted) {
+    const std::vector<StepBounds> to_go = bounds_to_go(space_.kernels, penalties, progress, counts);
+    const std::vector<NodeIndex> path = path_along(to_go, space_.kernels, penalties, counts);
+    const double upper_bound = cost_of_path(space_.kernels, penalties, path, counts);
     return exact_search(
-        space_, allowed, penalties, upper_bound, [&](double) { return to_go; }, asked, progress,
+        space_, asked, penalties, upper_bound, [&](double) { return to_go; }, wanted, progress,
         counts);
   };
+  const std::vector<StepPenalties> free = space_.penalties(steps);
   paths.best = solve(steps, free, options);
   std::vector<NodeIndex> used = paths.best.path.nodes;
   while (static_cast<int>(paths.others.size()) + 1 < count) {
@@ -82,9 +81,13 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
     used.erase(std::unique(used.begin(), used.end()), used.end());
     std::vector<SearchStep> rest;
     for (std::size_t t = 0; t < steps.size(); ++t) {
-      rest.push_back(without(steps[t], used, to_go[t].active));
+      rest.push_back(without(steps[t], used, free[t].nodes_up_to(free[t].near())));
     }
-    paths.others.push_back(solve(rest, space_.penalties(rest), {.threads = options.threads}).path);
+    std::vector<StepPenalties> penalties;
+    for (std::size_t t = 0; t < steps.size(); ++t) {
+      penalties.push_back(free[t].under(rest[t]));
+    }
+    paths.others.push_back(solve(rest, penalties, {.threads = options.threads}).path);
     used.insert(used.end(), paths.others.back().nodes.begin(), paths.others.back().nodes.end());
   }
   return paths;
