@@ -22,7 +22,23 @@ Eigen::VectorXd mean_pose(const std::vector<ShownSentence>& shown) {
   return sum / std::max(frames, 1.0);
 }
 
-std::vector<std::pair<int, int>> neighbours(const Layout& layout, const Eigen::VectorXd& pose) {
+// The largest squared distance of two markers over some of the frames: lips that meet at rest are
+// no neighbours once they have opened.
+double farthest_sq(const std::vector<ShownSentence>& shown, int a, int b) {
+  constexpr Eigen::Index kEvery = 5;
+  double largest = 0.0;
+  for (const ShownSentence& sentence : shown) {
+    for (Eigen::Index k = 0; k < sentence.recorded.rows(); k += kEvery) {
+      const auto frame = sentence.recorded.row(k);
+      const float sq = (frame.segment<3>(3 * a) - frame.segment<3>(3 * b)).squaredNorm();
+      largest = std::max(largest, static_cast<double>(sq));
+    }
+  }
+  return largest;
+}
+
+std::vector<std::pair<int, int>> neighbours(const Layout& layout,
+                                            const std::vector<ShownSentence>& shown) {
   constexpr std::size_t kNearest = 2;
   std::set<std::pair<int, int>> edges;
   for (int a = 0; a < layout.group_count(); ++a) {
@@ -30,7 +46,7 @@ std::vector<std::pair<int, int>> neighbours(const Layout& layout, const Eigen::V
     std::vector<std::pair<double, int>> others;
     for (int b = 0; b < layout.group_count(); ++b) {
       if (b != a && drawn_region(layout.groups[static_cast<std::size_t>(b)]) == region) {
-        others.emplace_back((pose.segment<3>(3 * a) - pose.segment<3>(3 * b)).squaredNorm(), b);
+        others.emplace_back(farthest_sq(shown, a, b), b);
       }
     }
     std::ranges::sort(others);
@@ -99,7 +115,7 @@ ShownFace shown_face(const Layout& layout, const std::vector<ShownSentence>& sho
   ShownFace face;
   face.pose = mean_pose(shown);
   if (layout.kind == LayoutKind::markers) {
-    face.edges = neighbours(layout, face.pose);
+    face.edges = neighbours(layout, shown);
   }
   face.traced = traced_groups(layout, shown, face.pose);
   return face;

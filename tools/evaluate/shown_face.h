@@ -12,8 +12,9 @@ namespace phonomime {
 // What a picture of the markers needs beside their motion.
 struct ShownFace {
   Eigen::VectorXd pose;                   // #channels: mean of the recordings shown
-  std::vector<std::pair<int, int>> edges; // lines between groups, each group with its two nearest
-                                          // of the same region; smaller index first, sorted
+  std::vector<std::pair<int, int>> edges; // lines between groups, each group with the two of its
+                                          // region that are never far from it; smaller index
+                                          // first, sorted; none between weights
   std::vector<int> traced;                // groups whose motion is plotted: those of the lips'
                                           // landmarks, then of each region the one that moves most
 };

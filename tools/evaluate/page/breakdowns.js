@@ -75,13 +75,14 @@ function drawFaceMap() {
 function setUpPlaces() {
   const regions = Object.keys(mainMethod.regions).filter((region) => isNumber(mainMethod.regions[region]));
   const body = element('tbody');
-  for (const region of regions) {
-    const row = element('tr', {}, element('td', {}, region));
-    for (const method of report.methods) row.append(element('td', {}, number(method.regions[region], 3)));
+  for (const method of report.methods) {
+    const row = element('tr', { class: method.sees_recording ? 'bound' : method === mainMethod ? 'main' : null },
+      element('td', {}, method.id));
+    for (const region of regions) row.append(element('td', {}, number(method.regions[region], 3)));
     body.append(row);
   }
   const unit = unitText(measures.get('rmse'));
-  byId('region-table').replaceChildren(tableHead([`RMSE, pooled${unit ? ` (${unit})` : ''}`, ...report.methods.map(({ id }) => id)]), body);
+  byId('region-table').replaceChildren(tableHead([`RMSE, pooled${unit ? ` (${unit})` : ''}`, ...regions]), body);
   if (face.channels === 3 && report.shown.length > 0) {
     fillSelect(byId('pick-map-method'), methodOptions(), report.main_method);
     byId('pick-map-method').addEventListener('change', drawFaceMap);

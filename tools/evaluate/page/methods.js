@@ -73,7 +73,7 @@ function target(measure) {
 }
 
 function drawDots(svg, width, measure) {
-  const [left, right, top, line] = [104, width - 12, 6, 21];
+  const [left, right, top, line] = [116, width - 12, 6, 21];
   const bottom = top + line * report.methods.length;
   const wanted = target(measure);
   const spread = report.methods.flatMap(({ measures: own }) => {
@@ -91,7 +91,7 @@ function drawDots(svg, width, measure) {
   report.methods.forEach((method, index) => {
     const y = top + line * (index + 0.5);
     const { mean, standard_error: error } = method.measures[measure.id];
-    svg.append(shape('text', { class: 'name', x: 0, y: y + 4 }, shortName(method.id, 15)));
+    svg.append(shape('text', { class: 'name', x: 0, y: y + 4 }, shortName(method.id, 17)));
     if (!isNumber(mean)) {
       svg.append(shape('text', { x: left + 4, y: y + 4 }, 'no value'));
       return;

@@ -76,6 +76,6 @@ function drawSizes() {
       of((size) => size.measures[measure.id].mean, (size) => size.measures[measure.id].standard_error), 'var(--m0)');
   }
   sizePlot('search time', 's, mean of a sentence', 3, of((size) => size.search_seconds), 'var(--m1)');
-  sizePlot('diphones that it holds', 'share of those asked for', 3, of((size) => size.diphone_coverage), 'var(--m2)');
-  sizePlot('triphones that it holds', 'share of those asked for', 3, of((size) => size.triphone_coverage), 'var(--m2)');
+  sizePlot('diphones', 'share of those asked for', 3, of((size) => size.diphone_coverage), 'var(--m2)');
+  sizePlot('triphones', 'share of those asked for', 3, of((size) => size.triphone_coverage), 'var(--m2)');
 }
