@@ -137,8 +137,8 @@ std::string fingerprint(const MotionTable& table) {
 std::string fingerprint(const SynthOptions& options, const std::string& table,
                         FileFingerprints& files) {
   const auto& [database, transcript, outputs, speaker, phoneme_set, tier, emotion, emotions,
-               constraints, weights, audio, face, fps, head, silence, smoothing_half_window,
-               runners_up, threads, make_folders] = options;
+               constraints, cost, blend, weights, audio, face, fps, head, silence,
+               smoothing_half_window, runners_up, threads, make_folders] = options;
   Values values;
   const auto add_file = [&](const std::filesystem::path& file) {
     values.add(file.empty());
@@ -168,8 +168,8 @@ std::string fingerprint(const SynthOptions& options, const std::string& table,
       add_file(file);
     }
   }
-  values.add_all(fps, head.has_value(), head.value_or(HeadPose{}), silence, smoothing_half_window,
-                 runners_up);
+  values.add_all(cost.value_or(kUsualCost), blend.value_or(kUsualBlend), fps, head.has_value(),
+                 head.value_or(HeadPose{}), silence, smoothing_half_window, runners_up);
   return values.hex();
 }
 

@@ -37,6 +37,9 @@ void check_stream_options(const StreamOptions& options) {
   refuse(!synth.audio.empty(), "--audio", "only a player has sound");
   refuse(!synth.tier.empty(), "--tier", "a stream of lines is no TextGrid");
   refuse(synth.runners_up > 0, "--runners-up", "they need the whole transcript");
+  refuse(synth.cost.value_or(CostModel::paper) != CostModel::paper, "--cost context",
+         "it looks at what is said later");
+  refuse(synth.blend.value_or(1) != 1, "--blend", "one path becomes final, not several");
   if (options.look_ahead < 0 || options.look_ahead > kLongestLookAhead) {
     throw UsageError({.where = "--look-ahead",
                       .what = "is out of range",
@@ -103,7 +106,7 @@ StreamReport run_stream(const StreamOptions& options, const StreamEnds& ends,
   const MotionTable& table = stock.table();
   StreamTranscript transcript(phoneme_sets_to_try(synth, table), read_asked_emotions(synth, table),
                               "standard input");
-  ViterbiSearch search(table, read_weights(synth, stock.default_weights()));
+  ViterbiSearch search(table, read_weights(synth, stock.default_weights(CostModel::paper)));
   SearchChooser chooser(search, options);
   SynthesisStream stream(table, chooser,
                          {.constraints = read_constraints(synth),

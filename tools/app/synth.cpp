@@ -40,8 +40,8 @@ SynthReport run_synth(const SynthOptions& options, SynthStock& stock, SearchKeep
                       const Progress& progress) {
   const MotionTable& table = stock.table();
   SynthReport report;
-  const SynthesisInput input =
-      read_synthesis_input(options, table, stock.default_weights(), report.notes);
+  const SynthesisInput input = read_synthesis_input(
+      options, table, stock.default_weights(options.cost.value_or(kUsualCost)), report.notes);
   SynthOutputs outputs(options, stock, report.notes);
   SynthesisResult result = synthesize(table, keeper.search(table, input.weights), input, progress);
   if (options.head) {

@@ -4,6 +4,7 @@
 #include "db/types/motion.h"
 #include "db/types/progress.h"
 #include "synth/concat/silence.h"
+#include "synth/search/search_types.h"
 
 #include <filesystem>
 #include <optional>
@@ -26,17 +27,23 @@ struct SynthOptions {
   std::string emotion;                        // NAME or NAME:INTENSITY; empty: neutral
   std::filesystem::path emotions;             // emotion track
   std::filesystem::path constraints;
-  std::filesystem::path weights;
-  std::filesystem::path audio;  // WAV, goes into the HTML player
-  std::filesystem::path face;   // needed for .glb and .html
-  double fps = 30.0;            // 1 to 1000
-  std::optional<HeadPose> head; // constant; empty: the head rests
+  std::optional<CostModel> cost; // empty: kUsualCost, of a stream the paper's
+  std::optional<int> blend;      // paths that are blended, 1 to 100; empty: kUsualBlend
+  std::filesystem::path weights; // of the cost, where they are not its own
+  std::filesystem::path audio;   // WAV, goes into the HTML player
+  std::filesystem::path face;    // needed for .glb and .html
+  double fps = 30.0;             // 1 to 1000
+  std::optional<HeadPose> head;  // constant; empty: the head rests
   SilenceOptions silence;
   int smoothing_half_window = 3; // s of E16, frames, 0 to 100
   int runners_up = 3;            // per phoneme, 0 to 100
   int threads = 0;               // 0 = as many as there are cores
   bool make_folders = false;     // of the outputs, where they are missing
 };
+
+// What holds where the call says nothing else.
+inline constexpr CostModel kUsualCost = CostModel::context;
+inline constexpr int kUsualBlend = 8;
 
 struct SynthReport {
   std::string result_json; // as `synth --json` prints it

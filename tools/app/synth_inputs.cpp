@@ -127,6 +127,7 @@ SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTab
   input.emotions = assign_emotions(emotions.track, input.transcript, emotions.fallback);
   input.constraints = read_constraints(options);
   input.weights = read_weights(options, default_weights);
+  input.blend = options.blend.value_or(kUsualBlend);
   input.search = {.threads = options.threads, .runners_up = options.runners_up};
   input.concat = concat_options(options);
   input.fps = options.fps;

@@ -136,6 +136,7 @@ void check_synth_options(const SynthOptions& options) {
   check_range("--smoothing", options.smoothing_half_window, 0, 100);
   check_range("--runners-up", options.runners_up, 0, 100);
   check_range("--threads", options.threads, 0, 256);
+  check_range("--blend", options.blend.value_or(kUsualBlend), 1, 100);
   check_outputs_differ(options.outputs);
   if (needs_face(options) && options.face.empty()) {
     throw UsageError({.what = "a .glb or .html output needs a face",

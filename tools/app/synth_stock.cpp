@@ -31,7 +31,8 @@ std::string face_note(const MarkerFace& face, const PcaModel& pca) {
 } // namespace
 
 SynthStock::SynthStock(MotionTable table)
-    : table_(std::move(table)), default_weights_(default_cost_weights(table_)) {}
+    : table_(std::move(table)), paper_weights_(default_cost_weights(table_, CostModel::paper)),
+      context_weights_(default_cost_weights(table_, CostModel::context)) {}
 
 const FittedFace& SynthStock::face(const std::filesystem::path& path) {
   const std::scoped_lock lock(mutex_);

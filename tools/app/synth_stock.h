@@ -26,7 +26,9 @@ public:
   explicit SynthStock(MotionTable table);
 
   const MotionTable& table() const { return table_; }
-  const CostWeights& default_weights() const { return default_weights_; }
+  const CostWeights& default_weights(CostModel model) const {
+    return model == CostModel::paper ? paper_weights_ : context_weights_;
+  }
 
   // The face that `--face PATH` names, fitted when it is first asked for, kept as long as this.
   // Throws InputError and IoError.
@@ -34,7 +36,8 @@ public:
 
 private:
   MotionTable table_;
-  CostWeights default_weights_;
+  CostWeights paper_weights_;
+  CostWeights context_weights_;
   std::mutex mutex_;
   std::map<std::filesystem::path, FittedFace> faces_;
 };

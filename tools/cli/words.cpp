@@ -71,6 +71,14 @@ SilenceFill parse_silence(const std::string& text) {
                                     {"cubic", SilenceFill::cubic}});
 }
 
+std::optional<CostModel> parse_cost(const std::string& text) {
+  if (text.empty()) {
+    return std::nullopt;
+  }
+  return parse_choice<CostModel>("--cost", "there is no such cost", text,
+                                 {{"paper", CostModel::paper}, {"context", CostModel::context}});
+}
+
 std::optional<Scale> parse_scale(const std::string& text) {
   if (text.empty()) {
     return std::nullopt;

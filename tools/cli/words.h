@@ -20,6 +20,9 @@ HeadPose parse_head(const std::string& text);
 // "linear", "cosine" or "cubic".
 SilenceFill parse_silence(const std::string& text);
 
+// "paper" or "context"; nothing for "".
+std::optional<CostModel> parse_cost(const std::string& text);
+
 // "measured" or "nominal"; nothing for "".
 std::optional<Scale> parse_scale(const std::string& text);
 
