@@ -104,6 +104,7 @@ void add_import(CLI::App& app, CallWords& words) {
                    "How much longer or shorter than its motion an alignment may be, in seconds")
       ->type_name("SECONDS")
       ->capture_default_str();
+  add_scale(verb, words);
   verb->add_flag("--skip-faulty", options.recordings.skip_faulty,
                  "Leave out sentences whose files are faulty (the report names them) instead of "
                  "refusing the corpus");
@@ -186,6 +187,13 @@ void add_database(CLI::App* verb, std::filesystem::path& database, bool option) 
   added->required()->type_name("DB");
 }
 
+void add_scale(CLI::App* verb, CallWords& words) {
+  verb->add_option("--scale", words.scale,
+                   "measured (millimetres are millimetres) or nominal (one camera: frames are "
+                   "brought to one size of the head); default: as the layout says, else found out")
+      ->type_name("SCALE");
+}
+
 Arguments parse_arguments(int argc, const char* const* argv) {
   CallWords words;
   CLI::App app("Expressive speech animation from recorded facial motion", "phonomime");
@@ -202,6 +210,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   add_nodes(app, words);
   add_synth(app, words);
   add_batch(app, words);
+  add_evaluate(app, words);
   add_explain(app, words);
   add_common(app, words.arguments.common);
   check_verb(std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0),
@@ -224,8 +233,12 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   if (!words.head.empty()) {
     words.synth.options.head = parse_head(words.head);
   }
+  words.synth.options.cost = parse_cost(words.cost);
   words.synth.options.silence = {.fill = parse_silence(words.silence),
                                  .rest_at_ends = !words.no_rest};
+  words.evaluate.options.synth.silence = words.synth.options.silence;
+  words.import.options.recordings.scale = parse_scale(words.scale);
+  words.evaluate.options.import.recordings.scale = words.import.options.recordings.scale;
   const std::string verb = app.get_subcommands().front()->get_name();
   if (verb == "import") {
     words.arguments.verb = words.import;
@@ -245,6 +258,8 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     words.batch.synth = words.synth.options;
     words.batch.shard = parse_shard(words.shard);
     words.arguments.verb = BatchArguments{words.batch};
+  } else if (verb == "evaluate") {
+    words.arguments.verb = words.evaluate;
   } else {
     words.arguments.verb = words.explain;
   }

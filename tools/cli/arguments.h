@@ -3,6 +3,7 @@
 
 #include "db/store/motion_database.h"
 #include "tools/app/batch.h"
+#include "tools/app/evaluate.h"
 #include "tools/app/import_corpus.h"
 #include "tools/app/stream.h"
 #include "tools/app/synth.h"
@@ -46,6 +47,10 @@ struct BatchArguments {
   BatchOptions options;
 };
 
+struct EvaluateArguments {
+  EvaluateOptions options;
+};
+
 struct ExplainArguments {
   std::filesystem::path result;
 };
@@ -58,7 +63,7 @@ struct PrintArguments {
 struct Arguments {
   CommonArguments common;
   std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SynthArguments,
-               StreamArguments, BatchArguments, ExplainArguments>
+               StreamArguments, BatchArguments, EvaluateArguments, ExplainArguments>
       verb;
 };
 

@@ -21,9 +21,10 @@ struct CallWords {
   SynthArguments synth;
   StreamOptions stream; // but its synthesis
   BatchOptions batch;   // but its synthesis
+  EvaluateArguments evaluate;
   ExplainArguments explain;
   bool only_suspect = false, only_pruned = false, only_gaps = false;
-  std::string head, silence = "linear", shard = "1/1";
+  std::string scale, cost, head, silence = "linear", shard = "1/1";
   bool no_rest = false, streams = false;
 };
 
@@ -32,7 +33,10 @@ struct CallWords {
 // DB as an option --db or as a word of its own.
 void add_database(CLI::App* verb, std::filesystem::path& database, bool option);
 
+void add_scale(CLI::App* verb, CallWords& words);
+
 void add_synth(CLI::App& app, CallWords& words);
 void add_batch(CLI::App& app, CallWords& words);
+void add_evaluate(CLI::App& app, CallWords& words);
 
 } // namespace phonomime

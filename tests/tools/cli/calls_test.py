@@ -10,7 +10,7 @@ import subprocess
 import phonomime_cli as cli
 import tiny_corpus
 
-VERBS = ("import", "info", "nodes", "synth", "batch", "explain")
+VERBS = ("import", "info", "nodes", "synth", "batch", "evaluate", "explain")
 
 
 class CallsTest(cli.CliTest):
@@ -33,6 +33,7 @@ class CallsTest(cli.CliTest):
             "nodes": ["nodes", self.database],
             "synth": ["synth", "--db", self.database, self.transcript, "-o", self.folder / "out.csv"],
             "batch": ["batch", self.manifest, "--db", self.database, "-o", self.folder / "{id}.csv"],
+            "evaluate": ["evaluate", self.corpus, "--folds", "2", "--sentences", "2"],
             "explain": ["explain", self.result],
         }
 
@@ -50,7 +51,7 @@ class CallsTest(cli.CliTest):
                     self.assertEqual(words[0], "phonomime")
                     for option in (word for word in words if word.startswith("-")):
                         self.assertRegex(cli.run_well(words[1], "--help"), rf"(?m)^  .*{re.escape(option)}\b")
-        for verb in ("import", "synth", "batch"):
+        for verb in ("import", "synth", "batch", "evaluate"):
             self.assertIn("--threads", cli.run_well(verb, "--help"))
 
     def test_help_is_for_people(self):
@@ -72,7 +73,7 @@ class CallsTest(cli.CliTest):
         self.assertRegex(cli.run_well("--version"), r"^phonomime \d+\.\d+\.\d+\n$")
 
     def test_quiet_prints_nothing_on_success(self):
-        for verb in ("import", "synth", "batch"):
+        for verb in ("import", "synth", "batch", "evaluate"):
             with self.subTest(verb):
                 result = cli.run(*self.calls()[verb], "--quiet")
                 self.assertEqual((result.returncode, result.stdout, result.stderr), (cli.DONE, "", ""))

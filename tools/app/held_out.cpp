@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/app/held_out.h"
+
+#include "db/import/prepare.h"
+#include "db/import/suspect.h"
+#include "db/store/motion_database.h"
+#include "db/types/errors.h"
+#include "db/types/parallel_for.h"
+#include "db/types/text.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace phonomime {
+
+namespace {
+
+constexpr std::ptrdiff_t kFilesAtOnce = 16;
+
+void check_layout(const std::filesystem::path& path, const MotionDatabase& database,
+                  const Corpus& corpus) {
+  const Layout known = database.info().layout;
+  Layout offered = corpus.layout;
+  offered.scale = known.scale; // recordings are brought to the database's
+  if (format_layout(known) != format_layout(offered)) {
+    throw InputError({.where = corpus.folder.string(),
+                      .what = "the corpus' layout is not that of the database " + path.string(),
+                      .remedy = "Evaluate with recordings of the same markers or weights."});
+  }
+}
+
+std::map<std::string, MotionTable> load_tables(const std::filesystem::path& path,
+                                               const MotionDatabase& database,
+                                               const Corpus& corpus) {
+  const std::vector<std::string> speakers = database.speakers();
+  std::map<std::string, MotionTable> tables;
+  for (const CorpusSentence& sentence : corpus.sentences) {
+    if (tables.contains(sentence.speaker)) {
+      continue;
+    }
+    if (std::ranges::find(speakers, sentence.speaker) == speakers.end()) {
+      throw InputError({.where = sentence.where,
+                        .what = fmt::format("there are no recordings of speaker {} to speak {} "
+                                            "with",
+                                            quoted(sentence.speaker), quoted(sentence.id)),
+                        .expected = fmt::format("one of {}", fmt::join(speakers, ", ")),
+                        .got = path.string()});
+    }
+    tables.emplace(sentence.speaker, database.load_motion_table(sentence.speaker));
+  }
+  return tables;
+}
+
+void prepare_sentences(const PrepareContext& context, HeldOut& held_out, const Progress& progress) {
+  const std::vector<Recording>& recordings = context.survey.recordings;
+  const auto count = static_cast<std::ptrdiff_t>(recordings.size());
+  const auto note = [&](const Rejection& rejection) { held_out.notes.push_back(rejection.reason); };
+  for (std::ptrdiff_t first = 0; first < count; first += kFilesAtOnce) {
+    progress.update("reading held-out sentences", first, count);
+    std::vector<PreparedRecording> prepared(
+        static_cast<std::size_t>(std::min(kFilesAtOnce, count - first)));
+    parallel_for(static_cast<std::ptrdiff_t>(prepared.size()), context.options.threads,
+                 [&](std::ptrdiff_t i) {
+                   prepared[static_cast<std::size_t>(i)] =
+                       prepare_recording(recordings[static_cast<std::size_t>(first + i)], context);
+                 });
+    for (PreparedRecording& recording : prepared) {
+      std::ranges::for_each(recording.rejections, note);
+      for (PreparedSentence& sentence : recording.sentences) {
+        held_out.sentences.push_back(std::move(sentence.sentence));
+      }
+    }
+  }
+}
+
+} // namespace
+
+HeldOut read_held_out(const std::filesystem::path& path, const Corpus& corpus,
+                      const RecordingOptions& options, const Progress& progress) {
+  const MotionDatabase database = MotionDatabase::open(path, OpenMode::read_only);
+  check_layout(path, database, corpus);
+  HeldOut held_out;
+  held_out.tables = load_tables(path, database, corpus);
+  KnownHeads heads;
+  for (const auto& [speaker, table] : held_out.tables) {
+    heads.references[speaker] = table.reference_pose;
+    heads.scale = table.layout.scale.value_or(Scale::measured);
+  }
+  const Survey survey = survey_corpus(corpus, options, heads, progress);
+  for (const Rejection& rejection : survey.rejections) {
+    held_out.notes.push_back(rejection.reason);
+  }
+  const SuspectLimits limits = suspect_limits(survey.usual, corpus.layout.kind);
+  prepare_sentences({.corpus = corpus,
+                     .survey = survey,
+                     .limits = limits,
+                     .options = options,
+                     .rate_hz = held_out.tables.begin()->second.rate_hz},
+                    held_out, progress);
+  std::ranges::sort(held_out.sentences, {}, [](const ImportedSentence& sentence) {
+    return std::tie(sentence.speaker, sentence.emotion, sentence.id);
+  });
+  return held_out;
+}
+
+HeldOut hold_out(const ImportOptions& options, const SentenceFilter& held_out,
+                 const SentenceFilter& spoken, const std::filesystem::path& database,
+                 const Progress& progress) {
+  ImportOptions training = options;
+  training.database = database;
+  training.takes = [&](const CorpusSentence& sentence) { return !held_out(sentence); };
+  import_corpus(training, progress);
+  Corpus corpus = read_corpus(options.corpus);
+  keep_sentences(corpus, [&](const CorpusSentence& sentence) {
+    return held_out(sentence) && spoken(sentence);
+  });
+  return read_held_out(database, corpus, options.recordings, progress);
+}
+
+} // namespace phonomime
