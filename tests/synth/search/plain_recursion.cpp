@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace phonomime::test {
 
@@ -20,8 +21,8 @@ double lane_sum(const std::vector<double>& values) {
 
 } // namespace
 
-PlainRecursion::PlainRecursion(const MotionTable& table, const CostWeights& weights)
-    : table_(table), weights_(weights) {
+PlainRecursion::PlainRecursion(const MotionTable& table, const CostWeights& weights, Fit fit)
+    : table_(table), weights_(weights), fit_(std::move(fit)) {
   for (const MotionNode& node : table.nodes) {
     const std::int64_t a = node.first_frame;
     const std::int64_t b = node.first_frame + node.frame_count - 1;
@@ -32,12 +33,24 @@ PlainRecursion::PlainRecursion(const MotionTable& table, const CostWeights& weig
   }
 }
 
+double PlainRecursion::weight(Eigen::Index channel) const {
+  const auto lips = [](const ChannelGroup& group) {
+    return std::find(group.regions.begin(), group.regions.end(), Region::lips) !=
+           group.regions.end();
+  };
+  const std::vector<ChannelGroup>& groups = table_.layout.groups;
+  const auto own = static_cast<std::size_t>(channel / table_.layout.channels_per_group());
+  return std::any_of(groups.begin(), groups.end(), lips) && !lips(groups[own]) ? weights_.off_lips
+                                                                               : 1.0;
+}
+
 std::vector<float> PlainRecursion::channels(std::int64_t frame) const {
   std::vector<float> result;
   for (Eigen::Index c = 0; c < table_.pca.mean.size(); ++c) {
     double value = table_.pca.mean[c];
     for (Eigen::Index k = 0; k < table_.pca.basis.cols(); ++k) {
-      value += table_.pca.basis(c, k) * static_cast<double>(table_.coefficients(frame, k));
+      value +=
+          (table_.pca.basis(c, k) * weight(c)) * static_cast<double>(table_.coefficients(frame, k));
     }
     result.push_back(static_cast<float>(value));
   }
@@ -50,8 +63,10 @@ std::vector<float> PlainRecursion::velocity(std::int64_t from_frame, std::int64_
     double from = table_.pca.mean[c];
     double to = table_.pca.mean[c];
     for (Eigen::Index k = 0; k < table_.pca.basis.cols(); ++k) {
-      from += table_.pca.basis(c, k) * static_cast<double>(table_.coefficients(from_frame, k));
-      to += table_.pca.basis(c, k) * static_cast<double>(table_.coefficients(to_frame, k));
+      from += (table_.pca.basis(c, k) * weight(c)) *
+              static_cast<double>(table_.coefficients(from_frame, k));
+      to += (table_.pca.basis(c, k) * weight(c)) *
+            static_cast<double>(table_.coefficients(to_frame, k));
     }
     result.push_back(static_cast<float>((to - from) * table_.rate_hz));
   }
@@ -132,7 +147,9 @@ double PlainRecursion::penalty(const SearchStep& step, NodeIndex node) const {
       observation = weights_.alpha4 * observation;
     }
   }
-  return observation + (step.emotion == info.emotion ? 0.0 : weights_.alpha6 * weights_.pnt);
+  const double paper =
+      observation + (step.emotion == info.emotion ? 0.0 : weights_.alpha6 * weights_.pnt);
+  return fit_ ? paper + fit_(step, node) : paper;
 }
 
 bool PlainRecursion::allowed(const SearchStep& step, NodeIndex node) {

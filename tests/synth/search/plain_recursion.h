@@ -4,6 +4,7 @@
 #include "db/types/motion_table.h"
 #include "synth/search/search_types.h"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,9 @@ namespace phonomime::test {
 // define, so that costs can be compared to the bit.
 class PlainRecursion {
 public:
-  PlainRecursion(const MotionTable& table, const CostWeights& weights);
+  // `fit` of a node at a step, beyond the paper's cost; empty: none.
+  using Fit = std::function<double(const SearchStep& step, NodeIndex node)>;
+  PlainRecursion(const MotionTable& table, const CostWeights& weights, Fit fit = {});
 
   double transition(NodeIndex from, NodeIndex to) const;
   double penalty(const SearchStep& step, NodeIndex node) const;
@@ -30,12 +33,14 @@ public:
 
 private:
   std::vector<float> channels(std::int64_t frame) const;
+  double weight(Eigen::Index channel) const;
   std::vector<float> velocity(std::int64_t from_frame, std::int64_t to_frame) const;
   double gap(const std::vector<float>& a, const std::vector<float>& b) const;
   double smoothing(NodeIndex from, NodeIndex target) const;
 
   const MotionTable& table_;
   CostWeights weights_;
+  Fit fit_;
   std::vector<std::vector<float>> first_pose_, last_pose_, first_velocity_, last_velocity_;
 };
 

@@ -30,6 +30,9 @@ void add_layout(const TableShape& shape, MotionTable& table, Draw& draw) {
   table.layout.kind = shape.kind;
   for (int g = 0; g < shape.groups; ++g) {
     table.layout.groups.push_back({"m" + std::to_string(g), {}});
+    if (g < shape.lips) {
+      table.layout.groups.back().regions = {Region::lips};
+    }
   }
   const int channels = table.layout.channel_count();
   Eigen::MatrixXd random(channels, shape.dimensions);

@@ -26,6 +26,7 @@ private:
 
 struct TableShape {
   int groups = 5;
+  int lips = 0; // of the groups
   int dimensions = 4;
   int phonemes = 6; // silence not counted
   int visemes = 3;
