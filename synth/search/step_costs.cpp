@@ -39,11 +39,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWorthThreads = 256;
-
-} // namespace
-
-namespace {
-
 constexpr double kNear = 2.0; // PNT
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "tests/synth/search/random_tables.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -56,6 +57,91 @@ SynthesisInput said_again(const MotionTable& t, const std::vector<NodeIndex>& ru
   input.weights = kWeights;
   input.fps = t.rate_hz;
   return input;
+}
+
+// Words that were not recorded in this order.
+SynthesisInput said_anew(const MotionTable& t, std::uint64_t seed, int length) {
+  test::Draw draw(seed);
+  std::vector<NodeIndex> nodes;
+  for (int i = 0; i < length; ++i) {
+    nodes.push_back(draw.below(t.node_count()));
+  }
+  SynthesisInput input = said_again(t, nodes);
+  input.emotions.assign(nodes.size(), {.emotion = t.emotions[0]});
+  return input;
+}
+
+std::vector<NodeIndex> nodes_of(const SynthesisResult& result) {
+  std::vector<NodeIndex> nodes;
+  std::ranges::transform(result.rows, std::back_inserter(nodes), &PathRow::node);
+  return nodes;
+}
+
+TEST(Synthesize, AUseHoldsInEveryBlendedPath) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const MotionTable t = table(seed);
+    SynthesisInput input = said_anew(t, seed, 8);
+    input.constraints = {{.index = 3, .keys = {t.key(5)}, .where = "c:1"}};
+    input.blend = 4;
+    ViterbiSearch search(t, input.weights);
+    const SynthesisResult result = synthesize(t, search, input);
+    ASSERT_EQ(result.blended.size(), 3u);
+    double weight = result.weight + result.expected_weight;
+    double cost = result.cost;
+    for (const BlendedPath& path : result.blended) {
+      EXPECT_EQ(path.nodes[3], 5);
+      EXPECT_GE(path.cost, cost);
+      cost = path.cost;
+      weight += path.weight;
+    }
+    EXPECT_NEAR(weight, 1.0, 1e-12);
+  }
+}
+
+TEST(Synthesize, ABlendIsTheMeanOfItsPathsMotions) {
+  const MotionTable t = table(3);
+  SynthesisInput input = said_anew(t, 3, 9);
+  input.blend = 3;
+  input.concat.blend.liveliness = 0.0;
+  ViterbiSearch search(t, input.weights);
+  const SynthesisResult result = synthesize(t, search, input);
+  ASSERT_EQ(result.blended.size(), 2u);
+  EXPECT_EQ(result.expected_weight, 0.0); // the paper's cost expects nothing
+  std::vector<std::vector<NodeIndex>> paths = {nodes_of(result)};
+  for (const BlendedPath& path : result.blended) {
+    paths.push_back(path.nodes);
+  }
+  FrameMatrixD mean =
+      FrameMatrixD::Zero(result.motion.coefficients.rows(), result.motion.coefficients.cols());
+  for (const std::vector<NodeIndex>& nodes : paths) {
+    std::vector<ConcatStep> steps;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const NodeIndex before = t.nodes[static_cast<std::size_t>(nodes[i])].predecessor;
+      steps.push_back({.start_s = input.transcript[i].start_s,
+                       .end_s = input.transcript[i].end_s,
+                       .node = nodes[i],
+                       .captured = i > 0 && before == nodes[i - 1]});
+    }
+    mean += concatenate(t, steps, input.concat).coefficients / 3.0;
+  }
+  EXPECT_LT((result.motion.coefficients - mean).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Synthesize, ARecordingIsNotBlended) {
+  const MotionTable t = table(1);
+  const std::vector<NodeIndex> run = longest_run(t);
+  SynthesisInput input = said_again(t, run);
+  input.blend = 8;
+  input.weights.context = 1.0;
+  input.weights.duration = 0.3;
+  ViterbiSearch search(t, input.weights);
+  const SynthesisResult result = synthesize(t, search, input);
+  EXPECT_EQ(nodes_of(result), run);
+  EXPECT_TRUE(result.blended.empty());
+  EXPECT_EQ(result.weight, 1.0);
+  const FrameMatrixD first = t.node_frames(run[0]).cast<double>();
+  EXPECT_EQ(result.output.coefficients.topRows(first.rows()), first);
 }
 
 TEST(Synthesize, ARecordedSentenceComesBackAsItWasRecorded) {
