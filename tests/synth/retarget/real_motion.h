@@ -44,7 +44,7 @@ inline RealMotion read_real_motion(const std::filesystem::path& data, int step) 
     if (first.size() == 0) {
       first = centred_on_anchor(raw.row(0).transpose(), anchor);
     }
-    takes.push_back(remove_head(raw, anchor, first).local);
+    takes.push_back(remove_head(raw, anchor, first, Scale::nominal).local);
     frames += takes.back().rows();
   }
   motion.channels.resize(frames, motion.layout.channel_count());
