@@ -48,7 +48,7 @@ struct SynthesisResult {
   std::vector<PathRow> rows;        // of the best path
   double weight = 1.0;              // of its motion
   double expected_weight = 0.0;     // of the motion that is expected of the words
-  std::vector<BlendedPath> blended; // the others, cheapest first
+  std::vector<BlendedPath> blended; // the others, as they were found
   CoefficientMotion motion;         // at the database's rate
   CoefficientMotion output;         // at SynthesisInput::fps
   std::vector<std::string> warnings;

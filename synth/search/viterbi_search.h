@@ -10,7 +10,7 @@ namespace phonomime {
 // Paths of one transcript that have no node in common, each the best without those before it.
 struct DisjointPaths {
   SearchResult best;
-  std::vector<NodePath> others; // in the order in which they were found, costs never fall
+  std::vector<NodePath> others; // in the order in which they were found
 };
 
 // The exact search for the node path of least cost (E4, Algorithm 1 with DESIGN 4).

@@ -24,7 +24,7 @@ Measures the search on databases of many nodes, made from each DATABASE by resam
 its sentences. Every answer is verified before it is timed; stops with 1 where one is wrong.
 
   --sizes N,N,...    nodes (default 5556,20000,80000)
-  --only NAME,...    loading, search, plain, beam, soft, edits, streaming (default: all)
+  --only NAME,...    loading, search, context, plain, beam, soft, edits, streaming (default: all)
   --runs N           of which the median is shown (default 5)
   --limit SECONDS    after which a search with soft penalties is stopped (default 20)
   --verify-up-to N   nodes up to which a slow exact search judges every phrase (default 20000)
@@ -138,11 +138,15 @@ void run(const ScaleOptions& options) {
   if (wanted("plain")) {
     report_plain(report, options, load(options.databases.front()));
   }
-  const std::vector<std::string_view> scaled = {"search", "beam", "soft", "edits", "streaming"};
+  const std::vector<std::string_view> scaled = {"search", "context", "beam",
+                                                "soft",   "edits",   "streaming"};
   if (std::ranges::any_of(scaled, wanted)) {
     const std::vector<Subject> subjects = make_subjects(report, options);
     if (wanted("search")) {
       report_search(report, options, subjects);
+    }
+    if (wanted("context")) {
+      report_context(report, options, subjects);
     }
     if (wanted("edits")) {
       report_edits(report, options, subjects);

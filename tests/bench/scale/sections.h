@@ -30,12 +30,13 @@ struct ScaleOptions {
 struct Subject {
   std::string name; // "demo 80000"
   MotionTable table;
-  CostWeights weights; // the shipped ones
+  CostWeights weights; // the shipped ones of the paper's cost
   std::vector<Phrase> phrases;
 };
 
 // Each prints its tables and throws where an answer is wrong.
 void report_search(Report& report, const ScaleOptions& options, const std::vector<Subject>& all);
+void report_context(Report& report, const ScaleOptions& options, const std::vector<Subject>& all);
 void report_plain(Report& report, const ScaleOptions& options, const MotionTable& source);
 void report_beam(Report& report, const ScaleOptions& options, const std::vector<Subject>& all);
 void report_soft(Report& report, const ScaleOptions& options, const std::vector<Subject>& all);
