@@ -45,7 +45,8 @@ void report_context(Report& report, const ScaleOptions& options, const std::vect
       const SearchResult answer = search.solve(phrase.steps, {.threads = 2});
       ViterbiSearch fresh(subject.table, weights);
       SearchResult cold;
-      const double cold_s = seconds([&] { cold = fresh.solve(phrase.steps, {.threads = 1}); });
+      const double cold_s =
+          seconds([&] { return cold = fresh.solve(phrase.steps, {.threads = 1}); });
       verify(same_path(answer.path, cold.path),
              what + ": the answer depends on threads or earlier searches");
       judge_terms(answer.path, what);
