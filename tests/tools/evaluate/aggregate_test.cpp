@@ -104,6 +104,13 @@ TEST(Aggregate, ContactsAreJudgedByTheRecordings) {
   EXPECT_NEAR(*evaluation.tables[1].by_phoneme.at("f")[contact_share_recorded], 18.0 / 24.0, 1e-12);
   aggregate(evaluation); // once more changes nothing
   EXPECT_NEAR(*evaluation.tables[0][contact_share].pooled, 18.0 / 24.0, 1e-12);
+  EXPECT_EQ(evaluation.methods[0].sentences[0].sums.contact.count, 2);
+  // Ranges of one's own replace the judgement; a phoneme without one is not judged.
+  judge_contacts(evaluation.methods[0].sentences, {{"f", {-100.0, 100.0, 24}}});
+  EXPECT_EQ(
+      summarise(evaluation.methods[0].sentences)[static_cast<std::size_t>(contact_share)].mean,
+      1.0);
+  EXPECT_EQ(evaluation.methods[0].sentences[0].sums.contact.count, 1);
 }
 
 TEST(Aggregate, RefusesNothingAndMethodsOfOtherSentences) {

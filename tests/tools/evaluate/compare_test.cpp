@@ -45,6 +45,26 @@ TEST(Compare, ARunIsNoDifferentFromItself) {
   }
 }
 
+TEST(Compare, TheOrderOfSentencesInAReportDoesNotMatter) {
+  const Evaluation evaluation = run_of(9, 0.5);
+  nlohmann::json turned = nlohmann::json::parse(json_of(evaluation));
+  auto& sentences = turned["methods"][0]["sentences"];
+  std::reverse(sentences.begin(), sentences.end());
+  const Comparison comparison =
+      compare_runs(evaluation, parse_evaluation(turned.dump(), "turned.json"));
+  EXPECT_EQ(comparison.methods.at(0).sentences, 9);
+  EXPECT_EQ(of(comparison, Measure::squared_error).difference, 0.0);
+}
+
+TEST(Compare, WhatIsGoodDependsOnTheMeasure) {
+  EXPECT_EQ(badness(Measure::rmse, 2.0), 2.0);
+  EXPECT_EQ(badness(Measure::closure_recall, 0.75), -0.75);
+  EXPECT_EQ(badness(Measure::aperture_deviation_ratio, 0.75), 0.25);
+  EXPECT_EQ(badness(Measure::aperture_deviation_ratio, 1.25), 0.25);
+  EXPECT_EQ(badness(Measure::upper_face_dynamics, -2.0), 2.0);
+  EXPECT_FALSE(badness(Measure::captured_joins, 0.5));
+}
+
 TEST(Compare, SeesWhatBecameBetterAndWhatWorse) {
   const Evaluation small = run_of(20, 0.5);
   const Evaluation large = run_of(20, 0.9);
@@ -67,6 +87,20 @@ TEST(Compare, SeesWhatBecameBetterAndWhatWorse) {
     EXPECT_NE(one.verdict, Verdict::better);
     EXPECT_NE(one.verdict, Verdict::worse);
   }
+}
+
+TEST(Compare, AVerdictStandsAgainstAllTheMeasuresLookedAt) {
+  const Comparison comparison =
+      compare_runs(run_of(14, 0.6), parse_evaluation(json_of(run_of(14, 0.8)), "e.json"));
+  int alone = 0; // that would have a verdict if they had been looked at alone
+  for (const MeasureComparison& one : comparison.methods.at(0).measures) {
+    if (one.verdict == Verdict::not_compared) {
+      continue;
+    }
+    EXPECT_EQ(one.verdict == Verdict::no_difference, one.adjusted_p >= kSignificance);
+    alone += one.p_value < kSignificance && one.adjusted_p >= kSignificance ? 1 : 0;
+  }
+  EXPECT_GE(alone, 1);
 }
 
 TEST(Compare, PairsSentencesByKeyAndTheMainMethodsWithEachOther) {
@@ -99,6 +133,7 @@ TEST(Compare, RefusesRunsThatCannotBeCompared) {
   refused([](auto& j) { j["measures"][1]["formula"] = "guessed"; },
           R"(measure "rmse" has another formula there)");
   refused([](auto& j) { j["measures"][0]["unit"] = "cm^2"; }, "another unit");
+  refused([](auto& j) { j["measures"][2]["mask"] = "all frames"; }, "another mask");
   refused(
       [](auto& j) {
         for (auto& measure : j["measures"]) {

@@ -63,6 +63,13 @@ TEST(LipEvents, AClosureInTheNeighbourIsNoClosure) {
   EXPECT_EQ(whole.lip_events[1].row, 3);
 }
 
+TEST(LipEvents, OfEqualMinimaTheFirstCounts) {
+  ImportedSentence sentence = closing_sentence();
+  FrameMatrix synthesised = sentence.channels;
+  sentence.channels.row(46) = sentence.channels.row(45);
+  EXPECT_EQ(measure_sentence(made_setup(), sentence, synthesised, {}).lip_events[1].timing_s, 0.0);
+}
+
 TEST(LipEvents, FramesWithGapsAreNotLookedAt) {
   ImportedSentence sentence = closing_sentence();
   sentence.frame_has_gap[15] = 1;

@@ -88,6 +88,21 @@ test('packed motion is the motion, and the clock moves it', async () => {
         assert.ok(Math.abs(value - frames[frame][3 * group + axis]) <= read.step, `${group} ${axis} ${frame}`));
     }));
   }
+  // The players' motion is thinned to 50 Hz; between its frames it is linear.
+  const times = [0, 0.14, 0.5, 0.51];
+  const poses = await page.evaluate((moments) => {
+    const { report: data, motionOf, poseAt } = window.phonomime_report;
+    const packed = data.shown[0].recorded.motion;
+    return moments.map((time) => packed.groups.map((_, group) => [0, 1, 2].map(poseAt(motionOf(packed), time).bind(null, group))));
+  }, times);
+  times.forEach((time, index) => {
+    const frame = Math.floor(time * 50) * 2;
+    const share = (time * motion.rate - frame) / 2;
+    poses[index].forEach((channels, group) => channels.forEach((value, axis) => {
+      const [from, to] = [recorded[frame][3 * group + axis], recorded[frame + 2][3 * group + axis]];
+      assert.ok(Math.abs(value - (from + share * (to - from))) <= read.step, `${time} ${group} ${axis}`);
+    }));
+  });
   const inkAt = (time) => page.evaluate((t) => {
     window.phonomime_report.setTime(t);
     return ['view-recorded', 'view-made'].map((id) => document.getElementById(id).toDataURL());

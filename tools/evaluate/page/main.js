@@ -49,4 +49,4 @@ window.addEventListener('resize', () => {
   width = window.innerWidth;
   for (const listener of [...listeners]) listener();
 });
-window.phonomime_report = { report, setTime, chooseSentence, clock, trace };
+window.phonomime_report = { report, setTime, chooseSentence, clock, trace, motionOf, poseAt };
