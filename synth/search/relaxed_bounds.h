@@ -42,7 +42,7 @@ struct StepBounds {
 // One step of the relaxed recursion: Algorithm 1 with bounds in the place of joins.
 //
 // With v(y) = penalty + bound of node y at the neighbouring step, any node x has at least the bound
-// min(v). The active nodes, those whose penalty is within 2 PNT of the step's least, get better:
+// min(v). The active nodes, those near the step's least penalty (StepPenalties::near), get better:
 // the least bound over joins with the active ones of the neighbouring step, tight where they are
 // few enough, or the least v of an inactive one where that is less.
 class RelaxedRecursion {

@@ -39,7 +39,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kWorthThreads = 256;
-constexpr double kNear = 2.0; // PNT
+// In PNT. Fits differ from node to node, and more than joins do.
+constexpr double kNear = 2.0;
+constexpr double kNearWithFit = 3.0;
 
 } // namespace
 
@@ -68,7 +70,7 @@ StepPenalties::make_free(const MotionTable& table, const NodeClasses& classes,
   }
   free->fits.resize(classes.size());
   for (std::size_t c = 0; c < classes.size(); ++c) {
-    if (free->by_class[c] > free->by_class[free->order.front()] + kNear * weights.pnt) {
+    if (free->by_class[c] > free->by_class[free->order.front()] + kNearWithFit * weights.pnt) {
       continue;
     }
     const std::span<const NodeIndex> nodes = classes.nodes(c);
@@ -108,7 +110,7 @@ StepPenalties::StepPenalties(const NodeClasses& classes, const SearchStep& step,
   if (least_ == kInfinity) {
     throw InternalError({.what = "a step of the search has no node that is allowed"});
   }
-  near_ = least_ + kNear * pnt;
+  near_ = least_ + (free_->wish.asks ? kNearWithFit : kNear) * pnt;
 }
 
 StepPenalties StepPenalties::under(const SearchStep& step) const {
@@ -162,7 +164,11 @@ double StepPenalties::least_beyond(double most) const {
     if (free_->by_class[c] > most) {
       least = std::min(least, free_->by_class[c]);
     } else if (free_->wish.asks && most < kInfinity) {
-      least = std::min(least, most); // nodes of the class may lie just above
+      for (const NodeIndex node : classes_.nodes(c)) {
+        if (const double penalty = (*this)[node]; penalty > most) {
+          least = std::min(least, penalty);
+        }
+      }
     }
   }
   return least;

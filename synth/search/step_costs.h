@@ -38,8 +38,8 @@ public:
   FitCost fit_of(NodeIndex node) const;
   double least() const { return least_; } // of the nodes that are not blocked
 
-  // The most that a node near the least has: 2 PNT above it. Nodes further off are looked at only
-  // where bounds cannot exclude them.
+  // The most that a node near the least has: 2 PNT above it, 3 where fits count. Nodes further off
+  // are looked at only where bounds cannot exclude them.
   double near() const { return near_; }
 
   // The nodes of a penalty up to `most`, ascending; all that are allowed where the step names them.

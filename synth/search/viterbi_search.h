@@ -32,9 +32,9 @@ public:
                      const Progress& progress = {});
 
   // The best path, then the best that shares no node with it, then the best that shares none with
-  // either, and so on: `count` of them. A step that has no other node within 2 PNT of its least
-  // penalty (StepPenalties::near), or among those that a `use` constraint names, keeps those of
-  // earlier paths, so that neither constraint nor rare phoneme is given up. Runners-up are of the
+  // either, and so on: `count` of them. A step that has no other node near its least penalty
+  // (StepPenalties::near), or among those that a `use` constraint names, keeps those of earlier
+  // paths, so that neither constraint nor rare phoneme is given up. Runners-up are of the
   // best path.
   DisjointPaths solve_disjoint(std::span<const SearchStep> steps, int count,
                                const SearchOptions& options = {}, const Progress& progress = {});
