@@ -148,6 +148,7 @@ private:
     std::map<std::string, std::string>& options = evaluation_.run.options;
     const SynthOptions& synth = options_.synth;
     options["weights"] = synth.weights.empty() ? "default" : trim_spaces(read_file(synth.weights));
+    options["blend"] = fmt::format("{}", synth.blend.value_or(kUsualBlend));
     options["smoothing"] = fmt::format("{}", synth.smoothing_half_window);
     constexpr std::array<std::string_view, 3> kFills = {"linear", "cosine", "cubic"};
     options["silence"] = kFills[static_cast<std::size_t>(synth.silence.fill)];
@@ -289,6 +290,7 @@ void EvaluateOptions::validate() const {
     throw UsageError({.where = "--fold", .what = "needs --folds"});
   }
   require_range("--sentences", sentences, 0, std::numeric_limits<int>::max());
+  require_range("--blend", synth.blend.value_or(kUsualBlend), 1, 100);
   require_range("--smoothing", synth.smoothing_half_window, 0, 100);
   require_range("--threads", synth.threads, 0, 256);
   check_outputs(synth.outputs);

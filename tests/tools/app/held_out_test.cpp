@@ -89,7 +89,7 @@ TEST(HeldOut, AlteringItsRecordingsChangesNoByteOfTheDatabaseAndNoneOfItsPca) {
   corpus.alter();
   const HeldOut after = corpus.hold_out("after.db");
   ASSERT_NE(before.sentences[0].channels.rows(), after.sentences[0].channels.rows());
-  EXPECT_EQ(corpus.bytes("before.db"), corpus.bytes("after.db"));
+  EXPECT_TRUE(corpus.bytes("before.db") == corpus.bytes("after.db")); // too long to be printed
   const MotionTable& ours = before.tables.at("small");
   const MotionTable& theirs = after.tables.at("small");
   EXPECT_EQ(ours.pca.mean, theirs.pca.mean);
@@ -103,7 +103,7 @@ TEST(HeldOut, AlteringATrainingRecordingIsSeen) {
   corpus.hold_out("before.db");
   corpus.folder.write("b.csv", test::CorpusFolder::motion(100, 40.0));
   corpus.hold_out("after.db");
-  EXPECT_NE(corpus.bytes("before.db"), corpus.bytes("after.db"));
+  EXPECT_FALSE(corpus.bytes("before.db") == corpus.bytes("after.db"));
 }
 
 TEST(HeldOut, AReferenceFrameInAHeldOutSentenceIsNotLookedAt) {
