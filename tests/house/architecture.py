@@ -32,6 +32,8 @@ MAY_KNOW = {
 ONE_FOLDER = {"SQLite": (re.compile(r"^(sqlite3\.h|SQLiteCpp/)"), "db/store")}
 FEW_FILES = {
     "CGAL": (re.compile(r"^CGAL/"), 1),
+    "Spectra": (re.compile(r"^Spectra/"), 1),
+    "cairo": (re.compile(r"^cairo"), 1),
     "cpp-httplib": (re.compile(r"^httplib\.h"), 1),
     "tinygltf": (re.compile(r"^tiny_gltf\.h"), 2),
     "valijson": (re.compile(r"^valijson/"), 1),
