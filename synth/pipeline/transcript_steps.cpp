@@ -2,6 +2,7 @@
 #include "synth/pipeline/transcript_steps.h"
 
 #include "db/types/errors.h"
+#include "db/types/frame_times.h"
 #include "db/types/text.h"
 
 #include <algorithm>
@@ -50,22 +51,31 @@ std::vector<RowConstraint> constraints_per_row(const MotionTable& table,
   return rows;
 }
 
-// Surroundings of the rows of a transcript that are no silence; the others' stay empty.
+// Surroundings of the rows of a transcript that are no silence; the others' stay empty. Times are
+// those of the frames that rows get, as nodes' are: a recorded sentence finds itself.
 std::vector<Surroundings> asked_surroundings(const MotionTable& table,
                                              std::span<const TimedPhoneme> transcript) {
-  constexpr double kHole_s = 1e-6;
-  std::vector<SpokenPhoneme> utterance;
+  const double frame_s = 1.0 / table.rate_hz;
+  std::vector<TimeSpan> spans;
   for (const TimedPhoneme& row : transcript) {
-    if (!row.is_silence()) {
-      utterance.push_back(
-          {row.start_s, row.end_s, table.find_phoneme(row.phoneme.name).value_or(-1)});
+    spans.push_back({row.start_s, row.end_s, !row.is_silence()});
+  }
+  const std::vector<FrameRange> ranges = assign_frames(spans, table.rate_hz);
+  std::vector<SpokenPhoneme> utterance;
+  for (std::size_t row = 0; row < transcript.size(); ++row) {
+    if (!transcript[row].is_silence()) {
+      const auto first = static_cast<double>(ranges[row].first);
+      const auto end = static_cast<double>(ranges[row].end());
+      utterance.push_back({first * frame_s, end * frame_s,
+                           table.find_phoneme(transcript[row].phoneme.name).value_or(-1)});
     }
   }
   std::vector<Surroundings> surroundings(transcript.size());
   std::size_t spoken = 0;
   for (std::size_t row = 0; row < transcript.size(); ++row) {
     if (!transcript[row].is_silence()) {
-      surroundings[row] = surroundings_of(utterance, spoken++, kHole_s);
+      surroundings[row] = surroundings_of(utterance, spoken++, 0.5 * frame_s);
+      surroundings[row].duration_s = static_cast<double>(ranges[row].count) / table.rate_hz;
     }
   }
   return surroundings;

@@ -254,13 +254,18 @@ ContextFit::Wish ContextFit::wish(const SearchStep& step, const NodeClasses& cla
   return wish;
 }
 
+bool ContextFit::recorded_just_so(const Surroundings& asked, const Surroundings& own) const {
+  return own.before == asked.before && own.after == asked.after &&
+         std::abs(own.duration_s - asked.duration_s) < 0.5 / table_.rate_hz;
+}
+
 FitCost ContextFit::fit(const Wish& wish, NodeIndex node, bool ensured) const {
   FitCost cost;
   if (!wish.asks) {
     return cost;
   }
   const Surroundings& own = surroundings_[static_cast<std::size_t>(node)];
-  if (!wish.target.empty()) {
+  if (!wish.target.empty() && !recorded_just_so(wish.surroundings, own)) {
     std::vector<float> made(ensured ? 0 : record_floats());
     if (!ensured) {
       fill_record(node, made.data());

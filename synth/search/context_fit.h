@@ -22,11 +22,11 @@ namespace phonomime {
 //
 // target: the mean squared distance of the node's motion (five samples over its duration) from the
 // motion that is expected there, over the variance of all motion. Lips count as much per group as
-// four times the rest. What is expected is expected_motion.h's.
-// context: how unlike the phonemes are that are said around, up to 0.3 s before and after, near
-// ones counting more; two phonemes are as unlike as their mean poses, 1 on average.
-// duration: the difference of the durations over their mean.
-// position: difference of the places in the phrase, 0 to 1.
+// four times the rest. What is expected is expected_motion.h's; a node that was recorded in just
+// these surroundings, and as long, is what is expected there. context: how unlike the phonemes are
+// that are said around, up to 0.3 s before and after, near ones counting more; two phonemes are as
+// unlike as their mean poses, 1 on average. duration: the difference of the durations over their
+// mean. position: difference of the places in the phrase, 0 to 1.
 class ContextFit {
 public:
   ContextFit(const MotionTable& table, const CostWeights& weights);
@@ -58,6 +58,7 @@ private:
   std::size_t record_floats() const { return kSamples * padded_; }
   void fill_record(NodeIndex node, float* record) const;
   const ExpectedMotion* expected_motion(const SearchStep& step, const NodeClasses& classes);
+  bool recorded_just_so(const Surroundings& asked, const Surroundings& own) const;
   void learn_dissimilarities();
   float dissimilarity(std::int32_t a, std::int32_t b) const;
 

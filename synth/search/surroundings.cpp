@@ -81,6 +81,7 @@ std::vector<Surroundings> recorded_surroundings(const MotionTable& table) {
     }
     for (std::size_t i = begins[s]; i < begins[s + 1]; ++i) {
       surroundings[i] = surroundings_of(utterance, i - begins[s], 0.5 * frame_s);
+      surroundings[i].duration_s = table.nodes[i].frame_count / table.rate_hz; // to the bit
     }
   }
   return surroundings;

@@ -189,8 +189,8 @@ void add_database(CLI::App* verb, std::filesystem::path& database, bool option) 
 
 void add_scale(CLI::App* verb, CallWords& words) {
   verb->add_option("--scale", words.scale,
-                   "measured (millimetres are millimetres) or nominal (one camera: frames are "
-                   "brought to one size of the head); default: as the layout says, else found out")
+                   "What millimetres are: measured, or nominal (one camera: frames are brought to "
+                   "one size of the head); default: as the layout says, else found out")
       ->type_name("SCALE");
 }
 

@@ -153,8 +153,8 @@ void add_evaluate(CLI::App& app, CallWords& words) {
   CLI::App* verb = app.add_subcommand("evaluate", "How near to recordings syntheses of them come");
   verb->footer("Example:\n  phonomime evaluate recordings/ann --folds 5 -o ann.html -o ann.json\n"
                "  phonomime evaluate recordings/new --db ann.db --methods paper,oracle\n\n"
-               "Each held-out sentence is spoken by every method from its transcript and compared\n"
-               "with its recording. docs/evaluation.md explains methods and measures.");
+               "Each held-out sentence is spoken by every method from its transcript and\n"
+               "compared with its recording. docs/evaluation.md explains methods and measures.");
   verb->add_option("corpus", options.import.corpus, "The folder with corpus.json")
       ->required()
       ->type_name("CORPUS");

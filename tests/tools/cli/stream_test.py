@@ -80,7 +80,8 @@ class StreamTest(cli.DatabaseTest):
     def synth(self, rows, *arguments):
         """The .csv of an ordinary synthesis."""
         transcript = cli.write_lab(self.folder / "hello.lab", [(end, label) for _, end, label in rows])
-        cli.run_well("synth", "--db", self.database, transcript, "-o", self.folder / "hello.csv", *arguments)
+        cli.run_well("synth", "--db", self.database, transcript, "--cost", "paper", "--blend", "1",
+                     "-o", self.folder / "hello.csv", *arguments)
         return (self.folder / "hello.csv").read_bytes()
 
     def test_frames_are_those_of_synth(self):
