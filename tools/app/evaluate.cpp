@@ -64,10 +64,9 @@ public:
     evaluation_.layout = corpus_.layout;
     evaluation_.main_method = methods_.front().name;
     for (const MethodEntry& method : methods_) {
-      evaluation_.methods.push_back(
-          {.id = std::string(method.name),
-           .description = std::string(method.meaning),
-           .sees_recording = method.sees_recording});
+      evaluation_.methods.push_back({.id = std::string(method.name),
+                                     .description = std::string(method.meaning),
+                                     .sees_recording = method.sees_recording});
     }
     describe_options();
   }
