@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/import/survey.h"
 
+#include "db/import/head_scale.h"
 #include "db/import/readers.h"
 #include "db/import/reference_pose.h"
 #include "db/import/sentence_table.h"
@@ -37,28 +38,6 @@ struct Candidates {
   }
 };
 
-// Of the logarithms of the sizes of a speaker's head.
-struct SizeMoments {
-  std::int64_t count = 0;
-  double sum = 0.0;
-  double sum_of_squares = 0.0;
-  void add(double size) {
-    const double logarithm = std::log(size);
-    count += 1;
-    sum += logarithm;
-    sum_of_squares += logarithm * logarithm;
-  }
-  void add(const SizeMoments& other) {
-    count += other.count;
-    sum += other.sum;
-    sum_of_squares += other.sum_of_squares;
-  }
-  double squared_deviations() const {
-    return count == 0 ? 0.0
-                      : std::max(0.0, sum_of_squares - sum * sum / static_cast<double>(count));
-  }
-};
-
 // What is found in one motion file.
 struct FileFindings {
   double rate_hz = 0.0;
@@ -67,7 +46,7 @@ struct FileFindings {
   std::int64_t frames_shared = 0;
   std::vector<std::string> extra_groups;
   UsualMotion usual;
-  std::map<std::string, SizeMoments> sizes;     // by speaker
+  std::map<std::string, HeadSizes> sizes;       // by speaker
   std::map<std::string, Candidates> candidates; // by speaker
   std::vector<std::size_t> good;                // sentences
   std::vector<Rejection> rejections;
@@ -110,22 +89,6 @@ void add_speeds(const RecordedSentence& recorded, const SurveyContext& context,
   for (Eigen::Index k = 0; k < speeds.rows(); ++k) {
     for (Eigen::Index group = 0; group < speeds.cols(); ++group) {
       usual.speeds[static_cast<std::size_t>(group)].add(speeds(k, group));
-    }
-  }
-}
-
-void add_sizes(const RecordedSentence& recorded, const HeadAnchor& anchor, SizeMoments& sizes) {
-  Eigen::Matrix3Xd points(3, anchor.groups.size());
-  for (Eigen::Index k = 0; k < recorded.frames.rows(); ++k) {
-    const Eigen::VectorXd frame = recorded.frames.row(k);
-    if (!anchor_is_whole(frame, anchor)) {
-      continue;
-    }
-    for (std::size_t i = 0; i < anchor.groups.size(); ++i) {
-      points.col(static_cast<Eigen::Index>(i)) = marker_of(frame, anchor.groups[i]);
-    }
-    if (const double size = point_spread(points); size > 0.0) {
-      sizes.add(size);
     }
   }
 }
@@ -184,7 +147,7 @@ void look_at_sentence(std::size_t index, const LayoutMotion& motion, const Surve
   add_candidates(recorded, index, context, findings.candidates);
   add_speeds(recorded, context, findings.usual);
   if (context.anchor && context.anchor->gives_rotation) {
-    add_sizes(recorded, *context.anchor, findings.sizes[sentence.speaker]);
+    findings.sizes[sentence.speaker].add(recorded.frames, *context.anchor);
   }
   for (const TimedPhoneme& row : recorded.rows) {
     if (!row.is_silence()) {
@@ -233,7 +196,7 @@ FileFindings look_at_file(const Recording& recording, const SurveyContext& conte
 // What is gathered from all files, and the survey does not keep.
 struct Gathered {
   std::map<std::string, Candidates> candidates; // by speaker
-  std::map<std::string, SizeMoments> sizes;     // by speaker
+  std::map<std::string, HeadSizes> sizes;       // by speaker
 };
 
 void gather(FileFindings&& findings, const Recording& recording, Survey& survey,
@@ -259,41 +222,6 @@ void gather(FileFindings&& findings, const Recording& recording, Survey& survey,
     survey.recordings.push_back({.motion = recording.motion,
                                  .motion_name = recording.motion_name,
                                  .sentences = std::move(findings.good)});
-  }
-}
-
-// More than any marker on skin slides, less than a head moves before a camera.
-constexpr double kMostMeasuredVariation = 0.01;
-
-void choose_scale(Survey& survey, const std::map<std::string, SizeMoments>& sizes,
-                  const SurveyContext& context, std::optional<Scale> known) {
-  if (!context.anchor) {
-    return;
-  }
-  double squares = 0.0;
-  std::int64_t frames = 0;
-  for (const auto& [speaker, moments] : sizes) {
-    squares += moments.squared_deviations();
-    frames += moments.count;
-  }
-  survey.size_variation = frames == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(frames));
-  const auto choose = [&](std::optional<Scale> scale, const char* origin) {
-    if (scale && survey.scale_origin.empty()) {
-      survey.scale = *scale;
-      survey.scale_origin = origin;
-    }
-  };
-  choose(context.options.scale, "asked for");
-  choose(context.corpus.layout.scale, "layout");
-  choose(known, "database");
-  choose(survey.size_variation > kMostMeasuredVariation ? Scale::nominal : Scale::measured,
-         "found");
-  if (survey.scale == Scale::nominal && !context.anchor->gives_rotation) {
-    throw InputError({.where = context.corpus.folder.string(),
-                      .what = "the scale is nominal, and the layout cannot tell the head's size",
-                      .expected = "at least three rigid groups",
-                      .got = fmt::format("{}", context.anchor->groups.size()),
-                      .remedy = "Name more rigid groups, or call the scale measured."});
   }
 }
 
@@ -395,7 +323,14 @@ Survey survey_corpus(const Corpus& corpus, const RecordingOptions& options, cons
                       .what = "every sentence of the corpus is faulty",
                       .got = survey.rejections.front().reason});
   }
-  choose_scale(survey, gathered.sizes, context, known.scale);
+  if (context.anchor) {
+    const FoundScale found = choose_scale(
+        {.asked = options.scale, .layout = corpus.layout.scale, .database = known.scale},
+        gathered.sizes, *context.anchor, corpus.folder.string());
+    survey.scale = found.scale;
+    survey.scale_origin = found.origin;
+    survey.size_variation = found.size_variation;
+  }
   choose_references(survey, gathered.candidates, context, known.references);
   return survey;
 }
