@@ -17,7 +17,6 @@ namespace phonomime {
 namespace {
 
 constexpr double kOffLipsShare = 0.25;        // of the target distance
-constexpr double kPrior = 2.0;                // nodes that a mean of a wider context stands for
 constexpr double kLookFade = 0.78;            // from one look to the next: to 1/e in 0.12 s
 constexpr float kUnknownDissimilarity = 1.0f; // of a phoneme that was never recorded
 
