@@ -16,8 +16,8 @@ namespace phonomime {
 
 // Looks at every point for the nearest ones of many queries. Single precision with a stated margin
 // throws out nearly all of them eight at a time; what is left is measured in double, so that the
-// answer is exact and its order that of (squared distance, index). In 25 dimensions this outruns a
-// k-d tree (tests/bench/isomap_bench.cpp).
+// answer is exact and its order that of (squared distance, index). tests/bench/isomap_bench.cpp
+// times it against a k-d tree.
 class PointScan {
 public:
   // `points` (#points by #dimensions, finite) must outlive the scan.
