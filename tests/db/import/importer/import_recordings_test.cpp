@@ -48,21 +48,30 @@ TEST(ImportRecordings, GridIsAccountedForToTheLastFrame) {
                       .squaredNorm();
     }
     frames += channels.rows();
-    // Head and face together are the file's own markers, at every fourth frame.
+    // Head and face together are the file's own markers, at every fourth frame, but for the head's
+    // size, which a single camera does not know: the upper lip tells it, the lower one is judged.
     const std::vector<HeadPose> head = database.load_head(table.sentences[i]);
     const MotionClip clip =
         read_motion(shared / "grid_s1" / "motion" / (table.sentences[i].id + ".c3d"));
     const auto lip = static_cast<Eigen::Index>(*table.layout.find_landmark("lip_lower_inner"));
-    const auto column =
-        3 * (std::ranges::find(clip.groups, table.layout.groups[lip].name) - clip.groups.begin());
+    const auto upper = static_cast<Eigen::Index>(*table.layout.find_landmark("lip_upper_inner"));
+    const auto column_of = [&](Eigen::Index group) {
+      return 3 * (std::ranges::find(clip.groups, table.layout.groups[group].name) -
+                  clip.groups.begin());
+    };
     for (Eigen::Index k = 0; k < clip.frame_count(); ++k) {
-      const Eigen::Vector3d recorded =
-          clip.frames.row(k).segment<3>(column).cast<double>().transpose();
       const HeadPose& pose = head[static_cast<std::size_t>(4 * k)];
-      const Eigen::Vector3d made =
-          pose.rotation * channels.row(4 * k).segment<3>(3 * lip).transpose() + pose.translation_mm;
-      if (recorded.allFinite()) {
-        recorded_error = std::max(recorded_error, (made - recorded).norm());
+      const auto recorded = [&](Eigen::Index group) -> Eigen::Vector3d {
+        return clip.frames.row(k).segment<3>(column_of(group)).cast<double>().transpose() -
+               pose.translation_mm;
+      };
+      const auto turned = [&](Eigen::Index group) -> Eigen::Vector3d {
+        return pose.rotation * channels.row(4 * k).segment<3>(3 * group).transpose();
+      };
+      const double size = recorded(upper).dot(turned(upper)) / turned(upper).squaredNorm();
+      if (recorded(lip).allFinite() && std::isfinite(size)) {
+        recorded_error = std::max(recorded_error, (size * turned(lip) - recorded(lip)).norm());
+        EXPECT_NEAR(size, 1.0, 0.15);
       }
     }
   }
