@@ -22,13 +22,16 @@ database=$4
 shift 4
 
 # A farm that kills a task sends SIGTERM to this shell: pass it on, so that the batch stops cleanly.
+# The signal may come before the shell knows the program's number.
 program=
-trap '[[ -z $program ]] || kill -TERM "$program"' TERM INT
+stopping=
+trap 'stopping=yes; [[ -z $program ]] || kill -TERM "$program"' TERM INT
 
 input_or_output=4 # exit status of phonomime
 for ((try = 1; ; ++try)); do
   "${PHONOMIME:-phonomime}" batch "$manifest" --db "$database" --shard "$frame/$frames" "$@" &
   program=$!
+  [[ -z $stopping ]] || kill -TERM "$program"
   status=0
   wait "$program" || status=$?
   while kill -0 "$program" 2>/dev/null; do # a signal ends the wait before the program ends
