@@ -89,6 +89,7 @@ export async function openPage(target, options = {}) {
   const browser = await chromium.launch({ executablePath, headless: true, args });
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme });
   const opened = new OpenPage(browser, await context.newPage(), screenshot_dir);
-  await opened.page.goto(/^\w+:\/\//.test(target) ? target : pathToFileURL(path.resolve(target)).href, { timeout: 120_000 });
+  const address = /^\w+:\/\//.test(target) ? target : pathToFileURL(path.resolve(target)).href;
+  await opened.page.goto(address, { timeout: 120_000 });
   return opened;
 }
