@@ -1,54 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "isomap/map_scene.h"
 
+#include "db/types/html_text.h"
+
 #include <array>
 #include <iterator>
-#include <string_view>
 
 #include <fmt/format.h>
 
 namespace phonomime {
 
 namespace {
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t b = i; b < i + 3; ++b) {
-      group = group << 8 | (b < bytes.size() ? static_cast<unsigned char>(bytes[b]) : 0U);
-    }
-    for (std::size_t digit = 0; digit < 4; ++digit) {
-      text += i + digit > bytes.size() ? '=' : digits[group >> (18 - 6 * digit) & 63U];
-    }
-  }
-  return text;
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-    case '&':
-      result += "&amp;";
-      break;
-    case '<':
-      result += "&lt;";
-      break;
-    case '>':
-      result += "&gt;";
-      break;
-    case '"':
-      result += "&quot;";
-      break;
-    default:
-      result += c;
-    }
-  }
-  return result;
-}
 
 std::string path_of(const std::vector<Eigen::Vector2d>& points) {
   std::string path;
@@ -80,7 +42,7 @@ struct Element {
   }
   std::string operator()(const Label& label) const {
     return fmt::format(R"(<text x="{:.2f}" y="{:.2f}" font-size="{:.0f}">{}</text>)",
-                       label.left.x(), label.left.y(), label.size_px, escaped(label.text));
+                       label.left.x(), label.left.y(), label.size_px, escape_html(label.text));
   }
 };
 
@@ -99,7 +61,7 @@ std::string draw_svg(const MapPicture& picture, const MapPictureOptions& options
       scene.width_px, scene.height_px, scene.raster_top_px, scene.raster.width_px,
       scene.raster.height_px, base64(raster_png(scene.raster)));
   for (const Layer& layer : scene.layers) {
-    file += fmt::format("<g id=\"{}\">\n", escaped(layer.name));
+    file += fmt::format("<g id=\"{}\">\n", escape_html(layer.name));
     for (const Shape& shape : layer.shapes) {
       file += std::visit(Element{}, shape) + "\n";
     }
