@@ -20,7 +20,7 @@ int cluster_count(const Layout& layout) {
   return std::min(static_cast<int>(kClusterStride), layout.group_count());
 }
 
-FrameMatrixD cluster_rows(const MotionTable& table, const CostWeights& weights, double scale) {
+FrameMatrixD cluster_rows(const MotionTable& table, const CostWeights& weights) {
   const auto axes = static_cast<Eigen::Index>(table.layout.channels_per_group());
   constexpr auto kStride = static_cast<Eigen::Index>(kClusterStride);
   FrameMatrixD rows = FrameMatrixD::Zero(axes * kStride, table.pca.dimension_count());
@@ -28,10 +28,15 @@ FrameMatrixD cluster_rows(const MotionTable& table, const CostWeights& weights, 
       cluster_channel_groups(table, weighted_basis(table, weights), cluster_count(table.layout));
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     for (Eigen::Index axis = 0; axis < axes; ++axis) {
-      rows.row(axis * kStride + static_cast<Eigen::Index>(c)) = scale * clusters[c].row(axis);
+      rows.row(axis * kStride + static_cast<Eigen::Index>(c)) = clusters[c].row(axis);
     }
   }
   return rows;
+}
+
+LinearFeatures cluster_features(const MotionTable& table, const CostWeights& weights) {
+  const FrameMatrixD rows = cluster_rows(table, weights);
+  return {table, weights.alpha3 * rows, rows, static_cast<std::size_t>(rows.rows())};
 }
 
 // The sum over clusters of the norm of the difference, of poses and, where those are not enough, of
@@ -55,10 +60,7 @@ float summed_cluster_norms(const float* a, const float* b, int axes, float enoug
 } // namespace
 
 JoinBound::JoinBound(const MotionTable& table, const CostWeights& weights, double largest_frame)
-    : axes_(table.layout.channels_per_group()),
-      features_(table, cluster_rows(table, weights, weights.alpha3),
-                cluster_rows(table, weights, 1.0),
-                static_cast<std::size_t>(axes_) * kClusterStride),
+    : axes_(table.layout.channels_per_group()), features_(cluster_features(table, weights)),
       margin_(features_.rounding_margin(weights.alpha3, largest_frame)),
       records_(table.nodes.size(), 2 * features_.end_floats()) {}
 

@@ -37,14 +37,14 @@ std::vector<NodeIndex> path_along(std::span<const StepBounds> to_go, JoinKernels
   return path;
 }
 
-// `step` without the nodes in `used` (ascending), unless that would leave none of `active`.
+// `step` without the nodes in `used` (ascending), unless that would leave none of `near`.
 SearchStep without(const SearchStep& step, std::span<const NodeIndex> used,
-                   std::span<const NodeIndex> active) {
+                   std::span<const NodeIndex> near) {
   SearchStep rest = step;
   rest.avoided.clear();
   std::ranges::set_union(step.avoided, used, std::back_inserter(rest.avoided));
   const bool any =
-      std::ranges::any_of(active, [&](NodeIndex node) { return is_allowed(rest, node); });
+      std::ranges::any_of(near, [&](NodeIndex node) { return is_allowed(rest, node); });
   return any ? rest : step;
 }
 
@@ -75,13 +75,20 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
   };
   const std::vector<StepPenalties> free = space_.penalties(steps);
   paths.best = solve(steps, free, options);
+  if (count <= 1) {
+    return paths;
+  }
+  std::vector<std::vector<NodeIndex>> near;
+  for (const StepPenalties& penalties : free) {
+    near.push_back(penalties.nodes_up_to(penalties.near()));
+  }
   std::vector<NodeIndex> used = paths.best.path.nodes;
   while (static_cast<int>(paths.others.size()) + 1 < count) {
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
     std::vector<SearchStep> rest;
     for (std::size_t t = 0; t < steps.size(); ++t) {
-      rest.push_back(without(steps[t], used, free[t].nodes_up_to(free[t].near())));
+      rest.push_back(without(steps[t], used, near[t]));
     }
     std::vector<StepPenalties> penalties;
     for (std::size_t t = 0; t < steps.size(); ++t) {
