@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kQuery =
     "SELECT k.name, e.name, s.name, n.row, p.name, p.viseme, before.name, after.name, "
     "r.start_s, r.end_s, n.frame_count, n.has_gap, g.pruned_by IS NOT NULL, g.reason, "
-    "n.sentence_id "
+    "n.sentence_id, n.first_frame "
     "FROM nodes n JOIN sentences s ON s.id = n.sentence_id JOIN speakers k ON k.id = s.speaker_id "
     "JOIN emotions e ON e.id = n.emotion_id JOIN phonemes p ON p.id = n.phoneme_id "
     "JOIN phonemes before ON before.id = n.previous_phoneme_id "
@@ -124,6 +124,7 @@ std::vector<NodeRecord> MotionDatabase::list_nodes(const NodeFilter& filter) con
       record.has_gap = statement.getColumn(11).getInt() != 0;
       record.pruned = statement.getColumn(12).getInt() != 0;
       record.pruned_reason = record.pruned ? statement.getColumn(13).getString() : "";
+      record.first_frame = statement.getColumn(15).getInt64();
       marks.reset();
       marks.bind(1, statement.getColumn(14).getInt64());
       marks.bind(2, row);

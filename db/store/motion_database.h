@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "db/store/phoneme_maps.h"
 #include "db/types/imported_sentence.h"
 #include "db/types/layout.h"
 #include "db/types/motion_table.h"
@@ -67,6 +68,7 @@ struct NodeRecord {
   std::string key;
   std::string phoneme, viseme, emotion, speaker, sentence, previous_phoneme, next_phoneme;
   double start_s = 0.0, end_s = 0.0; // in its sentence
+  std::int64_t first_frame = 0;      // into its sentence's frames
   std::int32_t frame_count = 0;
   bool pruned = false, has_gap = false;
   std::string pruned_reason;
@@ -100,6 +102,15 @@ public:
   // One sentence's stored channels (#frames by #channels) and head poses.
   FrameMatrix load_channels(const SentenceInfo& sentence) const;
   std::vector<HeadPose> load_head(const SentenceInfo& sentence) const;
+
+  // The phoneme-Isomaps that are stored for a speaker, by phoneme, fresh or stale; one of them,
+  // nothing where there is none. Throw InputError (damaged).
+  std::vector<StoredMapRecord> list_maps(const std::string& speaker) const;
+  std::optional<StoredMap> load_map(const std::string& speaker, const std::string& phoneme) const;
+
+  // Stores a phoneme's maps in the place of those that there were, in a transaction of its own
+  // (read_write only). Throws InternalError for parts that do not fit each other, IoError.
+  void save_map(const StoredMap& map);
 
   // Starts the one transaction in which a corpus goes in (read_write only). The layout and the rate
   // must be the database's own where it holds a corpus already: InputError.

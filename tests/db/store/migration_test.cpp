@@ -8,6 +8,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -94,6 +95,32 @@ TEST_F(MigrationTest, AMigratedDatabaseIsRefusedByAnOlderProgram) {
   const std::string message =
       test::input_error([&] { MotionDatabase::open(path, OpenMode::read_only); });
   EXPECT_NE(message.find("version " + std::to_string(built_in + 1)), std::string::npos);
+}
+
+// Databases that older versions of the program have made (tests/data).
+TEST(OldDatabases, Version1IsRead) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "old.db";
+  std::filesystem::copy_file(
+      std::filesystem::path(PHONOMIME_SOURCE_DIR) / "tests/data/motion_database_v1.db", path);
+  ASSERT_EQ(raw_query(path, "PRAGMA user_version"), std::vector<std::string>{"1"});
+  std::vector<std::string> before = test::raw_dump(path);
+  const MotionTable table =
+      MotionDatabase::open(path, OpenMode::read_only).load_motion_table("ann");
+  EXPECT_EQ(raw_query(path, "PRAGMA user_version"),
+            std::vector<std::string>{std::to_string(built_in_migrations().back().version)});
+  EXPECT_EQ(table.nodes.size(), 11u);
+  EXPECT_EQ(table.unavailable.size(), 1u);
+  EXPECT_EQ(table.coefficients.cols(), 4);
+  EXPECT_GT(table.coefficients.norm(), 1.0F);
+  EXPECT_TRUE(MotionDatabase::open(path, OpenMode::read_only).list_maps("ann").empty());
+  // All that there was is there as it was.
+  std::vector<std::string> after = test::raw_dump(path);
+  std::ranges::sort(before);
+  std::ranges::sort(after);
+  EXPECT_TRUE(std::ranges::includes(after, before));
+  test::expect_sound(path);
+  test::expect_alone_and_whole(path);
 }
 
 } // namespace
