@@ -3,7 +3,8 @@
 
 #include "db/types/errors.h"
 #include "db/types/parallel_for.h"
-#include "isomap/vector_kernels.h"
+#include "db/types/vector_dispatch.h"
+#include "db/types/vector_lanes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +18,6 @@ namespace phonomime {
 
 namespace {
 
-using map_kernels::DoubleLanes;
-using map_kernels::kDoubleLanes;
-using map_kernels::load;
-using map_kernels::sum_of_lanes;
-
 constexpr Eigen::Index kRowsAtOnce = 64; // a thread's share
 constexpr Eigen::Index kSmall = 40;      // points up to which all eigenvalues are found
 // B, scaled to trace 1, plus this times the identity: the same eigenvectors, and an eigenvalue of 0
@@ -31,7 +27,7 @@ constexpr double kShift = 1e-3;
 constexpr double kFlat = 1e-12;
 
 // Sum over j of d[j]^2 x[j].
-PHONOMIME_MAP_KERNEL double squares_times(const double* d, const double* x, std::size_t count) {
+PHONOMIME_DISPATCHED double squares_times(const double* d, const double* x, std::size_t count) {
   DoubleLanes sums[4] = {};
   std::size_t j = 0;
   for (; j + 4 * kDoubleLanes <= count; j += 4 * kDoubleLanes) {

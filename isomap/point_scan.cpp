@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "isomap/point_scan.h"
 
-#include "isomap/vector_kernels.h"
+#include "db/types/vector_dispatch.h"
+#include "db/types/vector_lanes.h"
 
 #include <cstddef>
 #include <cstring>
@@ -10,9 +11,6 @@
 namespace phonomime {
 
 namespace {
-
-using map_kernels::FloatLanes;
-using map_kernels::load;
 
 // Dimensions after which a panel that is out of reach already is left.
 constexpr std::size_t kDimensionsOfLook = 6;
@@ -30,7 +28,7 @@ inline void add_squares(FloatLanes* sums, const float* queries, const float* pan
                         std::size_t from, std::size_t to) {
   for (std::size_t d = from; d < to; ++d) {
     FloatLanes point;
-    load(point, panel + d * map_kernels::kFloatLanes);
+    load(point, panel + d * kFloatLanes);
     for (std::size_t q = 0; q < 4; ++q) {
       const FloatLanes difference = point - queries[d * 4 + q];
       sums[q] += difference * difference;
@@ -39,13 +37,13 @@ inline void add_squares(FloatLanes* sums, const float* queries, const float* pan
 }
 
 // The first panel in [panel, end) with a point within reach of some query; its distances (4 by 8).
-PHONOMIME_MAP_KERNEL std::size_t first_within(const float* queries, const float* reach_sq,
+PHONOMIME_DISPATCHED std::size_t first_within(const float* queries, const float* reach_sq,
                                               const float* panels, std::size_t dimensions,
                                               std::size_t panel, std::size_t end,
                                               float* distances_sq) {
   const std::size_t look = dimensions < kDimensionsOfLook ? dimensions : kDimensionsOfLook;
   for (; panel < end; ++panel) {
-    const float* points = panels + panel * dimensions * map_kernels::kFloatLanes;
+    const float* points = panels + panel * dimensions * kFloatLanes;
     FloatLanes sums[4] = {};
     add_squares(sums, queries, points, 0, look);
     LaneBits within = {};

@@ -2,7 +2,7 @@
 #include "db/import/nodes.h"
 
 #include "db/types/errors.h"
-#include "db/types/frame_times.h"
+#include "db/types/row_frames.h"
 #include "db/types/text.h"
 
 #include <string>
@@ -13,11 +13,7 @@ namespace phonomime {
 
 std::vector<ImportedNode> cut_into_nodes(const std::vector<TimedPhoneme>& rows, double rate_hz,
                                          std::string_view where) {
-  std::vector<TimeSpan> spans;
-  for (const TimedPhoneme& row : rows) {
-    spans.push_back({.start_s = row.start_s, .end_s = row.end_s, .needs_frame = !row.is_silence()});
-  }
-  const std::vector<FrameRange> ranges = assign_frames(spans, rate_hz);
+  const std::vector<FrameRange> ranges = row_frames(rows, rate_hz);
   std::vector<ImportedNode> nodes;
   bool all_have_frames = true;
   for (std::size_t i = 0; i < rows.size(); ++i) {

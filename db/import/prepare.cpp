@@ -5,6 +5,7 @@
 #include "db/import/readers.h"
 #include "db/types/errors.h"
 #include "db/types/frame_times.h"
+#include "db/types/parallel_for.h"
 #include "db/types/text.h"
 
 #include <algorithm>
@@ -146,6 +147,26 @@ PreparedRecording prepare_recording(const Recording& recording, const PrepareCon
     }
   }
   return result;
+}
+
+void prepare_recordings(const PrepareContext& context, const Progress& progress,
+                        std::string_view stage,
+                        const std::function<void(std::vector<PreparedRecording>& some)>& take) {
+  constexpr std::ptrdiff_t kFilesAtOnce = 16;
+  const std::vector<Recording>& recordings = context.survey.recordings;
+  const auto count = static_cast<std::ptrdiff_t>(recordings.size());
+  for (std::ptrdiff_t first = 0; first < count; first += kFilesAtOnce) {
+    progress.update(stage, first, count);
+    std::vector<PreparedRecording> prepared(
+        static_cast<std::size_t>(std::min(kFilesAtOnce, count - first)));
+    parallel_for(static_cast<std::ptrdiff_t>(prepared.size()), context.options.threads,
+                 [&](std::ptrdiff_t i) {
+                   prepared[static_cast<std::size_t>(i)] =
+                       prepare_recording(recordings[static_cast<std::size_t>(first + i)], context);
+                 });
+    take(prepared);
+  }
+  progress.update(stage, count, count);
 }
 
 } // namespace phonomime

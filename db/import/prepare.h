@@ -7,9 +7,12 @@
 #include "db/import/survey.h"
 #include "db/import/suspect.h"
 #include "db/types/imported_sentence.h"
+#include "db/types/progress.h"
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <string_view>
 #include <vector>
 
 namespace phonomime {
@@ -56,5 +59,11 @@ struct PrepareContext {
 // (without head motion, so that a filled marker follows the face), resampled, cut into nodes,
 // marked where suspect. Throws InputError (unless faulty sentences are to be skipped) and IoError.
 PreparedRecording prepare_recording(const Recording& recording, const PrepareContext& context);
+
+// Each recording of the survey, a few at a time over threads: calls take(a few of them) in order.
+// Throws as prepare_recording does, and Interrupted. `stage` is what progress is called.
+void prepare_recordings(const PrepareContext& context, const Progress& progress,
+                        std::string_view stage,
+                        const std::function<void(std::vector<PreparedRecording>& some)>& take);
 
 } // namespace phonomime

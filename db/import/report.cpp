@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/import/report.h"
 
+#include "db/types/sentence_key.h"
+
 #include <tuple>
 
 #include <fmt/format.h>
@@ -17,10 +19,6 @@ constexpr std::size_t kGapLines = 20;
 
 std::string_view action_name(GapAction action) {
   return action == GapAction::filled ? "filled" : action == GapAction::held ? "held" : "marked";
-}
-
-std::string sentence_name(const CorpusSentence& sentence) {
-  return fmt::format("{}/{}/{}", sentence.speaker, sentence.emotion, sentence.id);
 }
 
 } // namespace
@@ -44,7 +42,7 @@ ImportReport begin_report(const Corpus& corpus, const Survey& survey, double rat
     report.references.push_back(
         {.speaker = speaker,
          .origin = reference.origin,
-         .sentence = reference.sentence ? sentence_name(corpus.sentences[*reference.sentence]) : "",
+         .sentence = reference.sentence ? sentence_key(corpus.sentences[*reference.sentence]) : "",
          .time_s = reference.time_s});
   }
   if (!survey.scale_origin.empty()) {
@@ -95,7 +93,7 @@ void add_to_report(ImportReport& report, const Corpus& corpus, const SentenceAcc
     const auto& [first, count, action] = frames;
     report.gaps.push_back(
         {.file = sentence.motion_name,
-         .sentence = sentence_name(sentence),
+         .sentence = sentence_key(sentence),
          .start_s = account.clock.start_s + static_cast<double>(first) / account.clock.rate_hz,
          .frames = count,
          .action = action,

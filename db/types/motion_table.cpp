@@ -2,6 +2,7 @@
 #include "db/types/motion_table.h"
 
 #include "db/types/errors.h"
+#include "db/types/sentence_key.h"
 #include "db/types/text.h"
 
 #include <algorithm>
@@ -41,10 +42,6 @@ std::optional<TypedKey> parse_key(std::string_view key) {
 bool is_short_form(std::string_view typed, std::string_view full) {
   return full.ends_with(typed) &&
          (full.size() == typed.size() || full[full.size() - typed.size() - 1] == '/');
-}
-
-std::string sentence_key(const SentenceInfo& sentence) {
-  return fmt::format("{}/{}/{}", sentence.speaker, sentence.emotion, sentence.id);
 }
 
 std::string node_key(const SentenceInfo& sentence, std::int32_t order) {

@@ -2,9 +2,9 @@
 #include "synth/concat/concat_stream.h"
 
 #include "db/types/errors.h"
+#include "db/types/time_warp.h"
 #include "synth/concat/append_frames.h"
 #include "synth/concat/concat_checks.h"
-#include "synth/concat/time_warp.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 
 #include "db/types/errors.h"
 #include "db/types/frame_times.h"
+#include "db/types/time_warp.h"
 #include "synth/concat/concat_checks.h"
 #include "synth/concat/shown_node.h"
-#include "synth/concat/time_warp.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -94,21 +94,17 @@ void check_same_transcript(const std::vector<ConcatStep>& path,
   }
 }
 
-// `motion` of a step in another number of frames.
-void stretch(const FrameMatrixD& motion, Eigen::Ref<FrameMatrixD> frames) {
-  const auto last = static_cast<double>(motion.rows() - 1);
-  for (Eigen::Index i = 0; i < frames.rows(); ++i) {
-    const double u = frames.rows() == 1
-                         ? 0.5 * last
-                         : static_cast<double>(i) * last / static_cast<double>(frames.rows() - 1);
-    const auto below = static_cast<Eigen::Index>(u);
-    const Eigen::Index above = std::min(below + 1, motion.rows() - 1);
-    const double share = u - static_cast<double>(below);
-    frames.row(i) = (1.0 - share) * motion.row(below) + share * motion.row(above);
+void check_expected(std::span<const FrameMatrixD> expected, const std::vector<ConcatStep>& steps) {
+  bool fits = expected.empty() || expected.size() == steps.size();
+  for (std::size_t i = 0; fits && i < expected.size(); ++i) {
+    fits = !steps[i].shows() || expected[i].rows() > 0;
+  }
+  if (!fits) {
+    throw InternalError({.what = "what is expected is not of the transcript that is blended"});
   }
 }
 
-// What is expected over all frames; without rows where some step that is shown expects nothing.
+// What is expected over all frames; without rows where nothing is.
 FrameMatrixD expected_track(const std::vector<ConcatStep>& steps,
                             std::span<const FrameMatrixD> expected, double rate_hz,
                             const FrameMatrixD& like) {
@@ -119,10 +115,7 @@ FrameMatrixD expected_track(const std::vector<ConcatStep>& steps,
   const std::vector<FrameRange> ranges = share_out(steps, rate_hz);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i].shows() && ranges[i].count > 0) {
-      if (expected[i].rows() == 0) {
-        return {};
-      }
-      stretch(expected[i], track.middleRows(ranges[i].first, ranges[i].count));
+      time_warp(expected[i], track.middleRows(ranges[i].first, ranges[i].count));
     }
   }
   return track;
@@ -168,9 +161,7 @@ CoefficientMotion concatenate(const MotionTable& table,
     check(table, path, options);
     check_same_transcript(path, steps);
   }
-  if (!expected.empty() && expected.size() != steps.size()) {
-    throw InternalError({.what = "what is expected is not of the transcript that is blended"});
-  }
+  check_expected(expected, steps);
   const double end_s = steps.back().end_s;
   CoefficientMotion motion;
   motion.rate_hz = table.rate_hz;

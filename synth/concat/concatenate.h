@@ -48,8 +48,8 @@ CoefficientMotion concatenate(const MotionTable& table, std::span<const ConcatSt
 // The same of several paths through one transcript: each is warped and smoothed, the stretches
 // between the pauses are blended (blend_motions), then /pau/ is filled. The paths differ in `node`
 // and `captured` alone. `expected`: one a step, the motion that is expected there, from its start
-// to its end, any number of frames by #dimensions; none for a step where nothing is, none at all
-// where nothing is anywhere. Throws InternalError where these do not fit each other.
+// to its end, any number of frames by #dimensions, at least one for a step that shows a node; or
+// none at all. Throws InternalError where these do not fit each other.
 CoefficientMotion concatenate(const MotionTable& table,
                               std::span<const std::vector<ConcatStep>> paths,
                               std::span<const FrameMatrixD> expected,

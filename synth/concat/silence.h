@@ -3,7 +3,9 @@
 
 #include "db/types/motion.h"
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace phonomime {
@@ -14,6 +16,8 @@ enum class SilenceFill {
   cosine, // half a cosine wave: sets out and arrives at rest
   cubic   // leaves and arrives with the borders' own velocities
 };
+
+inline constexpr std::array<std::string_view, 3> kSilenceFillNames = {"linear", "cosine", "cubic"};
 
 struct SilenceOptions {
   SilenceFill fill = SilenceFill::linear;

@@ -2,7 +2,7 @@
 #include "synth/pipeline/transcript_steps.h"
 
 #include "db/types/errors.h"
-#include "db/types/frame_times.h"
+#include "db/types/row_frames.h"
 #include "db/types/text.h"
 
 #include <algorithm>
@@ -56,11 +56,7 @@ std::vector<RowConstraint> constraints_per_row(const MotionTable& table,
 std::vector<Surroundings> asked_surroundings(const MotionTable& table,
                                              std::span<const TimedPhoneme> transcript) {
   const double frame_s = 1.0 / table.rate_hz;
-  std::vector<TimeSpan> spans;
-  for (const TimedPhoneme& row : transcript) {
-    spans.push_back({row.start_s, row.end_s, !row.is_silence()});
-  }
-  const std::vector<FrameRange> ranges = assign_frames(spans, table.rate_hz);
+  const std::vector<FrameRange> ranges = row_frames(transcript, table.rate_hz);
   std::vector<SpokenPhoneme> utterance;
   for (std::size_t row = 0; row < transcript.size(); ++row) {
     if (!transcript[row].is_silence()) {

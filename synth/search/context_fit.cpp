@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/context_fit.h"
 
-#include "synth/search/vector_dispatch.h"
-#include "synth/search/vector_lanes.h"
+#include "db/types/time_warp.h"
+#include "db/types/vector_dispatch.h"
+#include "db/types/vector_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -143,31 +144,17 @@ float ContextFit::dissimilarity(std::int32_t a, std::int32_t b) const {
 }
 
 void ContextFit::fill_record(NodeIndex node, float* record) const {
-  const MotionNode& info = table_.nodes[static_cast<std::size_t>(node)];
-  const auto row = [&](std::int64_t frame) {
-    return table_.coefficients.row(info.first_frame + frame).data();
-  };
-  const auto dimensions = static_cast<std::size_t>(metric_.cols());
-  std::vector<double> sample(dimensions);
+  FrameMatrixD samples(static_cast<Eigen::Index>(kSamples), metric_.cols());
+  time_warp(table_.node_frames(node), samples);
   std::fill_n(record, record_floats(), 0.0f);
+  Eigen::VectorXd made(metric_.rows());
   for (std::size_t s = 0; s < kSamples; ++s, record += padded_) {
-    const double u = static_cast<double>(s) / (kSamples - 1) * (info.frame_count - 1);
-    const auto below = static_cast<std::int64_t>(u);
-    const float* from = row(below);
-    const float* to = row(std::min<std::int64_t>(below + 1, info.frame_count - 1));
-    const double share = u - static_cast<double>(below);
-    for (std::size_t j = 0; j < dimensions; ++j) {
-      const auto start = static_cast<double>(from[j]);
-      sample[j] = start + share * (static_cast<double>(to[j]) - start);
+    // Column after column, so that the compiler's vectors sum in the order of the scalar code.
+    made.setZero();
+    for (Eigen::Index j = 0; j < metric_.cols(); ++j) {
+      made += samples(static_cast<Eigen::Index>(s), j) * metric_.col(j);
     }
-    for (std::size_t k = 0; k < dimensions; ++k) {
-      const double* row_of_metric = metric_.data() + k * dimensions;
-      double sum = 0.0;
-      for (std::size_t j = 0; j < dimensions; ++j) {
-        sum += row_of_metric[j] * sample[j];
-      }
-      record[k] = static_cast<float>(sum);
-    }
+    std::ranges::transform(made, record, [](double value) { return static_cast<float>(value); });
   }
 }
 

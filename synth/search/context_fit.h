@@ -67,8 +67,8 @@ private:
   const MotionTable& table_;
   CostWeights weights_;
   bool counts_;
-  std::size_t padded_;  // dimensions, to whole vectors
-  FrameMatrixD metric_; // #dimensions square: |metric c|^2 is the distance
+  std::size_t padded_;     // dimensions, to whole vectors
+  Eigen::MatrixXd metric_; // #dimensions square: |metric c|^2 is the distance
   Eigen::MatrixXd inverse_metric_;
   std::vector<Surroundings> surroundings_; // per node
   std::vector<float> dissimilarities_;     // #phonemes square

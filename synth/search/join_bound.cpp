@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/join_bound.h"
 
+#include "db/types/vector_dispatch.h"
+#include "db/types/vector_lanes.h"
 #include "synth/search/group_weights.h"
 #include "synth/search/motion_clusters.h"
-#include "synth/search/vector_dispatch.h"
-#include "synth/search/vector_lanes.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/join_cost.h"
 
-#include "synth/search/vector_dispatch.h"
-#include "synth/search/vector_lanes.h"
+#include "db/types/vector_dispatch.h"
+#include "db/types/vector_lanes.h"
 
 #include <algorithm>
 #include <array>

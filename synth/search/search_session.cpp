@@ -160,9 +160,8 @@ void SearchSession::take_over(std::span<const SearchStep> steps) {
 }
 
 // Makes so_far_ hold up to the pivot, and to_go_ from it on.
-void SearchSession::extend(std::size_t pivot, const Progress& progress,
-                           JoinFrontier::Counts& counts) {
-  const std::vector<StepPenalties> penalties = space_.penalties(free_steps_);
+void SearchSession::extend(std::size_t pivot, std::span<const StepPenalties> penalties,
+                           const Progress& progress, JoinFrontier::Counts& counts) {
   const auto total = static_cast<std::int64_t>(free_steps_.size());
   const RelaxedRecursion after(space_.kernels, JoinFrontier::Side::later);
   for (; to_go_valid_ > pivot; --to_go_valid_) {
@@ -190,16 +189,20 @@ SearchResult SearchSession::solve(std::span<const SearchStep> steps, const Searc
   JoinFrontier::Counts counts;
   const bool other_length = steps.size() != free_steps_.size();
   take_over(steps);
+  const std::vector<StepPenalties> free = space_.penalties(free_steps_);
   if (other_length) { // both sides whole, for the edits to come
-    extend(0, progress, counts);
-    extend(steps.size() - 1, progress, counts);
+    extend(0, free, progress, counts);
+    extend(steps.size() - 1, free, progress, counts);
   }
   std::size_t pivot = std::min(to_go_valid_, steps.size() - 1);
   for (std::size_t t = pivot; t < steps.size(); ++t) {
     pivot = is_constrained(steps[t]) ? t : pivot;
   }
-  extend(pivot, progress, counts);
-  const std::vector<StepPenalties> penalties = space_.penalties(steps);
+  extend(pivot, free, progress, counts);
+  std::vector<StepPenalties> penalties;
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    penalties.push_back(free[t].under(steps[t]));
+  }
   const PivotedSearch search(space_, penalties, std::span(so_far_).first(so_far_valid_), to_go_,
                              steps, pivot, counts);
   return exact_search(

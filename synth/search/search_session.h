@@ -28,7 +28,8 @@ public:
 
 private:
   void take_over(std::span<const SearchStep> steps);
-  void extend(std::size_t pivot, const Progress& progress, JoinFrontier::Counts& counts);
+  void extend(std::size_t pivot, std::span<const StepPenalties> penalties, const Progress& progress,
+              JoinFrontier::Counts& counts);
 
   SearchSpace& space_;
   std::vector<SearchStep> free_steps_; // of the last call, without their constraints

@@ -4,8 +4,10 @@
 #include "db/types/motion_table.h"
 #include "synth/search/surroundings.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace phonomime {
@@ -35,6 +37,7 @@ struct CostWeights {
 
 // Which terms a cost has.
 enum class CostModel { paper, context };
+inline constexpr std::array<std::string_view, 2> kCostModelNames = {"paper", "context"};
 
 // One phoneme of the transcript as the search sees it.
 struct SearchStep {

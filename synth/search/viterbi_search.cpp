@@ -56,8 +56,8 @@ SearchResult ViterbiSearch::solve(std::span<const SearchStep> steps, const Searc
 }
 
 DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, int count,
-                                            const SearchOptions& options,
-                                            const Progress& progress) {
+                                            const SearchOptions& options, const Progress& progress,
+                                            const std::function<bool(const NodePath&)>& goes_on) {
   DisjointPaths paths;
   if (steps.empty()) {
     return paths;
@@ -75,7 +75,7 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
   };
   const std::vector<StepPenalties> free = space_.penalties(steps);
   paths.best = solve(steps, free, options);
-  if (count <= 1) {
+  if (count <= 1 || (goes_on && !goes_on(paths.best.path))) {
     return paths;
   }
   std::vector<std::vector<NodeIndex>> near;

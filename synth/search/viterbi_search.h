@@ -3,6 +3,7 @@
 
 #include "synth/search/exact_search.h"
 
+#include <functional>
 #include <span>
 
 namespace phonomime {
@@ -34,10 +35,11 @@ public:
   // The best path, then the best that shares no node with it, then the best that shares none with
   // either, and so on: `count` of them. A step that has no other node near its least penalty
   // (StepPenalties::near), or among those that a `use` constraint names, keeps those of earlier
-  // paths, so that neither constraint nor rare phoneme is given up. Runners-up are of the
-  // best path.
+  // paths, so that neither constraint nor rare phoneme is given up. Runners-up are of the best
+  // path. `goes_on` is asked once that is known: where it says no, there are no others.
   DisjointPaths solve_disjoint(std::span<const SearchStep> steps, int count,
-                               const SearchOptions& options = {}, const Progress& progress = {});
+                               const SearchOptions& options = {}, const Progress& progress = {},
+                               const std::function<bool(const NodePath& best)>& goes_on = {});
 
   SearchSpace& space() { return space_; }
 

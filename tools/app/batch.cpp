@@ -13,7 +13,6 @@
 #include <chrono>
 #include <map>
 #include <mutex>
-#include <thread>
 #include <tuple>
 
 namespace phonomime {
@@ -88,11 +87,6 @@ void attempt(BatchRow& row, const Step& step) {
   row.seconds += seconds_since(begin);
 }
 
-std::size_t thread_count(const SynthOptions& options) {
-  return options.threads > 0 ? static_cast<std::size_t>(options.threads)
-                             : std::max(1u, std::thread::hardware_concurrency());
-}
-
 // The recordings of every speaker that a row asks for.
 std::map<std::string, Recordings> load_recordings(const BatchOptions& options,
                                                   const std::vector<ManifestRow>& rows) {
@@ -130,17 +124,18 @@ std::vector<ManifestRow> rows_of_shard(std::vector<ManifestRow> rows, const Shar
 void find_done(std::vector<Job>& jobs, const BatchOptions& options, const Progress& progress) {
   FileFingerprints files;
   RowProgress shown(progress, "looking for what is done", jobs.size());
-  share_out(
-      jobs.size(), thread_count(options.synth), progress.stop, [&](std::size_t, std::size_t i) {
-        Job& job = jobs[i];
-        attempt(*job.row, [&] {
-          job.fingerprint = fingerprint(job.options, job.recordings->table_fingerprint, files);
-          if (!options.redo && is_done(job.options.outputs, job.fingerprint)) {
-            job.row->status = RowStatus::skipped;
-          }
-        });
-        shown.next();
-      });
+  share_out(jobs.size(), worker_count(options.synth.threads), progress.stop,
+            [&](std::size_t, std::size_t i) {
+              Job& job = jobs[i];
+              attempt(*job.row, [&] {
+                job.fingerprint =
+                    fingerprint(job.options, job.recordings->table_fingerprint, files);
+                if (!options.redo && is_done(job.options.outputs, job.fingerprint)) {
+                  job.row->status = RowStatus::skipped;
+                }
+              });
+              shown.next();
+            });
 }
 
 // Rows with the same recordings and weights one after the other, so that a worker's search can
@@ -151,7 +146,7 @@ bool comes_before(const Job& a, const Job& b) {
 }
 
 void do_jobs(std::vector<Job>& jobs, const BatchOptions& options, const Progress& progress) {
-  const std::size_t threads = thread_count(options.synth);
+  const std::size_t threads = worker_count(options.synth.threads);
   const std::size_t workers = std::clamp<std::size_t>(jobs.size(), 1, threads);
   std::vector<SearchKeeper> keepers(workers);
   RowProgress shown(progress, "synthesising", jobs.size());

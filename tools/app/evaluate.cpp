@@ -4,10 +4,12 @@
 #include "db/store/motion_database.h"
 #include "db/types/errors.h"
 #include "db/types/file_io.h"
+#include "db/types/sentence_key.h"
 #include "db/types/text.h"
 #include "tools/app/evaluate_sizes.h"
 #include "tools/app/folds.h"
 #include "tools/app/held_out.h"
+#include "tools/app/option_checks.h"
 #include "tools/app/speak_held_out.h"
 #include "tools/app/temporary_folder.h"
 #include "tools/evaluate/method.h"
@@ -32,10 +34,6 @@ constexpr int kMostFolds = 100;
 constexpr int kWorstShown = 6;
 constexpr int kSampleShown = 4;
 constexpr std::array<std::string_view, 4> kOutputKinds = {".html", ".json", ".csv", ".txt"};
-
-std::string key_of(const CorpusSentence& sentence) {
-  return fmt::format("{}/{}/{}", sentence.speaker, sentence.emotion, sentence.id);
-}
 
 // The same progress, with a part of the whole named before each stage.
 Progress within(const Progress& progress, std::string part) {
@@ -79,13 +77,13 @@ public:
       const MotionDatabase database = MotionDatabase::open(path, OpenMode::read_only);
       for (const std::string& speaker : database.speakers()) {
         for (const SentenceInfo& sentence : database.load_motion_table(speaker).sentences) {
-          held.insert(fmt::format("{}/{}/{}", sentence.speaker, sentence.emotion, sentence.id));
+          held.insert(sentence_key(sentence));
         }
       }
     }
     std::vector<int> fold_of;
     for (const CorpusSentence& sentence : corpus_.sentences) {
-      fold_of.push_back(held.contains(key_of(sentence)) ? -1 : 0);
+      fold_of.push_back(held.contains(sentence_key(sentence)) ? -1 : 0);
     }
     const std::set<std::string> spoken = choose_spoken(fold_of, 0);
     if (spoken.empty()) {
@@ -95,8 +93,9 @@ public:
                         .remedy = "Evaluate with --folds instead, or with another corpus."});
     }
     Corpus corpus = corpus_;
-    keep_sentences(
-        corpus, [&](const CorpusSentence& sentence) { return spoken.contains(key_of(sentence)); });
+    keep_sentences(corpus, [&](const CorpusSentence& sentence) {
+      return spoken.contains(sentence_key(sentence));
+    });
     evaluation_.run.held_out_by = "sentences that the database does not hold";
     add(read_held_out(path, corpus, import_.recordings, progress_), 0);
   }
@@ -112,7 +111,7 @@ public:
       std::set<std::string> held_out;
       for (std::size_t i = 0; i < corpus_.sentences.size(); ++i) {
         if (fold_of[i] == fold) {
-          held_out.insert(key_of(corpus_.sentences[i]));
+          held_out.insert(sentence_key(corpus_.sentences[i]));
         }
       }
       if (std::ranges::none_of(held_out,
@@ -124,8 +123,12 @@ public:
           within(progress_, fmt::format("fold {} of {}", fold, options_.folds));
       add(hold_out(
               import_,
-              [&](const CorpusSentence& sentence) { return held_out.contains(key_of(sentence)); },
-              [&](const CorpusSentence& sentence) { return spoken.contains(key_of(sentence)); },
+              [&](const CorpusSentence& sentence) {
+                return held_out.contains(sentence_key(sentence));
+              },
+              [&](const CorpusSentence& sentence) {
+                return spoken.contains(sentence_key(sentence));
+              },
               folder.path() / "fold.db", progress),
           fold);
     }
@@ -149,8 +152,7 @@ private:
     options["weights"] = synth.weights.empty() ? "default" : trim_spaces(read_file(synth.weights));
     options["blend"] = fmt::format("{}", synth.blend.value_or(kUsualBlend));
     options["smoothing"] = fmt::format("{}", synth.smoothing_half_window);
-    constexpr std::array<std::string_view, 3> kFills = {"linear", "cosine", "cubic"};
-    options["silence"] = kFills[static_cast<std::size_t>(synth.silence.fill)];
+    options["silence"] = kSilenceFillNames[static_cast<std::size_t>(synth.silence.fill)];
     options["rest"] = synth.silence.rest_at_ends ? "yes" : "no";
     if (synth.database.empty()) {
       options["dimensions"] = fmt::format("{}", options_.import.pca.dimensions);
@@ -180,7 +182,7 @@ private:
       const bool full =
           options_.sentences > 0 && spoken.size() >= static_cast<std::size_t>(options_.sentences);
       if (wanted && !full) {
-        spoken.insert(key_of(corpus_.sentences[i]));
+        spoken.insert(sentence_key(corpus_.sentences[i]));
       }
     }
     return spoken;
@@ -247,7 +249,6 @@ void write_outputs(const EvaluateOptions& options, const EvaluateReport& report,
 }
 
 void check_outputs(const std::vector<std::filesystem::path>& outputs) {
-  std::set<std::filesystem::path> seen;
   for (const std::filesystem::path& path : outputs) {
     if (std::ranges::find(kOutputKinds, to_lower(path.extension().string())) ==
         kOutputKinds.end()) {
@@ -255,19 +256,8 @@ void check_outputs(const std::vector<std::filesystem::path>& outputs) {
                         .what = "the output's suffix does not say what it is to be",
                         .expected = fmt::format("one of {}", fmt::join(kOutputKinds, ", "))});
     }
-    if (!seen.insert(path.lexically_normal()).second) {
-      throw UsageError({.where = path.string(), .what = "the output is named twice"});
-    }
   }
-}
-
-void require_range(const char* option, long value, long least, long most) {
-  if (value < least || value > most) {
-    throw UsageError({.where = option,
-                      .what = "is out of range",
-                      .expected = fmt::format("{} to {}", least, most),
-                      .got = fmt::format("{}", value)});
-  }
+  check_outputs_differ(outputs);
 }
 
 } // namespace
@@ -283,15 +273,13 @@ void EvaluateOptions::validate() const {
     throw UsageError({.what = "--db and --folds do not go together"});
   }
   if (folds != 0) {
-    require_range("--folds", folds, 2, kMostFolds);
-    require_range("--fold", fold, 0, folds);
+    check_range("--folds", folds, 2, kMostFolds);
+    check_range("--fold", fold, 0, folds);
   } else if (fold != 0) {
     throw UsageError({.where = "--fold", .what = "needs --folds"});
   }
-  require_range("--sentences", sentences, 0, std::numeric_limits<int>::max());
-  require_range("--blend", synth.blend.value_or(kUsualBlend), 1, 100);
-  require_range("--smoothing", synth.smoothing_half_window, 0, 100);
-  require_range("--threads", synth.threads, 0, 256);
+  check_range("--sentences", sentences, 0, std::numeric_limits<int>::max());
+  check_motion_options(synth);
   check_outputs(synth.outputs);
   find_methods(methods);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/app/evaluate_sizes.h"
 
+#include "db/types/sentence_key.h"
 #include "tools/app/folds.h"
 #include "tools/app/speak_held_out.h"
 
@@ -10,8 +11,6 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace phonomime {
 
 namespace {
@@ -20,9 +19,7 @@ namespace {
 std::vector<bool> draw_sentences(const MotionTable& table, std::size_t part, std::uint64_t seed) {
   std::vector<std::pair<std::uint64_t, std::size_t>> lots;
   for (std::size_t s = 0; s < table.sentences.size(); ++s) {
-    const SentenceInfo& sentence = table.sentences[s];
-    lots.emplace_back(
-        lot_of(fmt::format("{}/{}/{}", sentence.speaker, sentence.emotion, sentence.id), seed), s);
+    lots.emplace_back(lot_of(sentence_key(table.sentences[s]), seed), s);
   }
   std::ranges::sort(lots);
   std::vector<bool> drawn(lots.size(), false);

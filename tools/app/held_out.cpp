@@ -5,7 +5,6 @@
 #include "db/import/suspect.h"
 #include "db/store/motion_database.h"
 #include "db/types/errors.h"
-#include "db/types/parallel_for.h"
 #include "db/types/text.h"
 
 #include <algorithm>
@@ -18,8 +17,6 @@
 namespace phonomime {
 
 namespace {
-
-constexpr std::ptrdiff_t kFilesAtOnce = 16;
 
 void check_layout(const std::filesystem::path& path, const MotionDatabase& database,
                   const Corpus& corpus) {
@@ -55,28 +52,6 @@ std::map<std::string, MotionTable> load_tables(const std::filesystem::path& path
   return tables;
 }
 
-void prepare_sentences(const PrepareContext& context, HeldOut& held_out, const Progress& progress) {
-  const std::vector<Recording>& recordings = context.survey.recordings;
-  const auto count = static_cast<std::ptrdiff_t>(recordings.size());
-  const auto note = [&](const Rejection& rejection) { held_out.notes.push_back(rejection.reason); };
-  for (std::ptrdiff_t first = 0; first < count; first += kFilesAtOnce) {
-    progress.update("reading held-out sentences", first, count);
-    std::vector<PreparedRecording> prepared(
-        static_cast<std::size_t>(std::min(kFilesAtOnce, count - first)));
-    parallel_for(static_cast<std::ptrdiff_t>(prepared.size()), context.options.threads,
-                 [&](std::ptrdiff_t i) {
-                   prepared[static_cast<std::size_t>(i)] =
-                       prepare_recording(recordings[static_cast<std::size_t>(first + i)], context);
-                 });
-    for (PreparedRecording& recording : prepared) {
-      std::ranges::for_each(recording.rejections, note);
-      for (PreparedSentence& sentence : recording.sentences) {
-        held_out.sentences.push_back(std::move(sentence.sentence));
-      }
-    }
-  }
-}
-
 } // namespace
 
 HeldOut read_held_out(const std::filesystem::path& path, const Corpus& corpus,
@@ -95,12 +70,22 @@ HeldOut read_held_out(const std::filesystem::path& path, const Corpus& corpus,
     held_out.notes.push_back(rejection.reason);
   }
   const SuspectLimits limits = suspect_limits(survey.usual, corpus.layout.kind);
-  prepare_sentences({.corpus = corpus,
-                     .survey = survey,
-                     .limits = limits,
-                     .options = options,
-                     .rate_hz = held_out.tables.begin()->second.rate_hz},
-                    held_out, progress);
+  const PrepareContext context{.corpus = corpus,
+                               .survey = survey,
+                               .limits = limits,
+                               .options = options,
+                               .rate_hz = held_out.tables.begin()->second.rate_hz};
+  const auto take = [&](std::vector<PreparedRecording>& some) {
+    for (PreparedRecording& recording : some) {
+      for (const Rejection& rejection : recording.rejections) {
+        held_out.notes.push_back(rejection.reason);
+      }
+      for (PreparedSentence& sentence : recording.sentences) {
+        held_out.sentences.push_back(std::move(sentence.sentence));
+      }
+    }
+  };
+  prepare_recordings(context, progress, "reading held-out sentences", take);
   std::ranges::sort(held_out.sentences, {}, [](const ImportedSentence& sentence) {
     return std::tie(sentence.speaker, sentence.emotion, sentence.id);
   });

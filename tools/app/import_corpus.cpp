@@ -6,7 +6,6 @@
 #include "db/import/suspect.h"
 #include "db/store/motion_database.h"
 #include "db/types/errors.h"
-#include "db/types/parallel_for.h"
 #include "db/types/text.h"
 
 #include <algorithm>
@@ -28,7 +27,6 @@ constexpr double kLeastDefaultRate_hz = 100.0;
 constexpr double kLeastRate_hz = 10.0;
 constexpr double kMostRate_hz = 1000.0;
 constexpr int kMostThreads = 256;
-constexpr std::ptrdiff_t kFilesAtOnce = 16;
 
 // What an existing database settles.
 struct Settled {
@@ -120,19 +118,9 @@ void settle_scale(Layout& layout, const Survey& survey, const Settled& settled) 
 
 void store_sentences(ImportTransaction& transaction, const PrepareContext& context,
                      ImportReport& report, Stopwatch& stopwatch, const Progress& progress) {
-  const std::vector<Recording>& recordings = context.survey.recordings;
-  const auto count = static_cast<std::ptrdiff_t>(recordings.size());
-  for (std::ptrdiff_t first = 0; first < count; first += kFilesAtOnce) {
-    progress.update("importing", first, count);
-    std::vector<PreparedRecording> prepared(
-        static_cast<std::size_t>(std::min(kFilesAtOnce, count - first)));
-    parallel_for(static_cast<std::ptrdiff_t>(prepared.size()), context.options.threads,
-                 [&](std::ptrdiff_t i) {
-                   prepared[static_cast<std::size_t>(i)] =
-                       prepare_recording(recordings[static_cast<std::size_t>(first + i)], context);
-                 });
+  prepare_recordings(context, progress, "importing", [&](std::vector<PreparedRecording>& some) {
     stopwatch.stop(report.timings, "prepare");
-    for (const PreparedRecording& recording : prepared) {
+    for (const PreparedRecording& recording : some) {
       for (const PreparedSentence& sentence : recording.sentences) {
         transaction.add_sentence(sentence.sentence);
         add_to_report(report, context.corpus, sentence.account);
@@ -140,8 +128,7 @@ void store_sentences(ImportTransaction& transaction, const PrepareContext& conte
       add_rejections(report, context.corpus, recording.rejections, recording.rejected_frames);
     }
     stopwatch.stop(report.timings, "store");
-  }
-  progress.update("importing", count, count);
+  });
 }
 
 PcaModel fit_to_database(const ImportTransaction& transaction, const ImportOptions& options,

@@ -2,6 +2,7 @@
 #include "tools/app/speak_held_out.h"
 
 #include "db/types/errors.h"
+#include "db/types/sentence_key.h"
 #include "synth/search/cost_weights.h"
 #include "tools/app/synth_inputs.h"
 #include "tools/app/workers.h"
@@ -11,7 +12,6 @@
 #include <exception>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,11 +25,6 @@ struct Speaker {
   MeasureSetup setup;
   std::vector<std::unique_ptr<Method>> methods;
 };
-
-std::size_t thread_count(const SynthOptions& options) {
-  return options.threads > 0 ? static_cast<std::size_t>(options.threads)
-                             : std::max(1u, std::thread::hardware_concurrency());
-}
 
 std::map<std::string, Speaker> make_speakers(const std::map<std::string, MotionTable>& tables,
                                              std::span<const MethodEntry> methods,
@@ -98,7 +93,8 @@ void speak_held_out(const std::map<std::string, MotionTable>& tables,
                     std::span<const MethodEntry> methods, const SynthOptions& options,
                     const Progress& progress,
                     const std::function<void(std::size_t sentence, SpokenSentence&&)>& take) {
-  const std::size_t workers = std::clamp<std::size_t>(sentences.size(), 1, thread_count(options));
+  const std::size_t workers =
+      std::clamp<std::size_t>(sentences.size(), 1, worker_count(options.threads));
   std::map<std::string, Speaker> speakers =
       make_speakers(tables, methods, options, workers, progress);
   std::vector<std::exception_ptr> failures(sentences.size());

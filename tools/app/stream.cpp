@@ -101,7 +101,7 @@ StreamReport run_stream(const StreamOptions& options, const StreamEnds& ends,
                         const Progress& progress) {
   check_stream_options(options);
   const SynthOptions& synth = options.synth;
-  const SynthStock stock(
+  SynthStock stock(
       MotionDatabase::open(synth.database, OpenMode::read_only).load_motion_table(synth.speaker));
   const MotionTable& table = stock.table();
   StreamTranscript transcript(phoneme_sets_to_try(synth, table), read_asked_emotions(synth, table),

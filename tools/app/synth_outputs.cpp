@@ -10,6 +10,7 @@
 #include "synth/export/player_document.h"
 #include "synth/pipeline/closures.h"
 #include "synth/pipeline/explain.h"
+#include "tools/app/option_checks.h"
 
 #include <algorithm>
 #include <array>
@@ -50,35 +51,6 @@ OutputKind output_kind(const std::filesystem::path& path) {
 bool shows_face(const std::filesystem::path& path) {
   const OutputKind kind = output_kind(path);
   return kind == OutputKind::glb || kind == OutputKind::html;
-}
-
-void check_range(const char* option, double value, double least, double most) {
-  if (!(value >= least && value <= most)) {
-    throw UsageError(
-        {.where = option,
-         .what = "is out of range",
-         .expected = fmt::format("{} to {}", format_number(least), format_number(most)),
-         .got = format_number(value)});
-  }
-}
-
-// One file twice would be written twice and counted twice. Written by renaming, two names of one
-// folder are two files, whatever links there were.
-void check_outputs_differ(const std::vector<std::filesystem::path>& outputs) {
-  std::map<std::filesystem::path, std::filesystem::path> named; // by its one spelling
-  for (const std::filesystem::path& path : outputs) {
-    std::error_code error;
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    const auto place = std::filesystem::weakly_canonical(folder, error) / path.filename();
-    const auto [first, is_new] = named.emplace(error ? path : place, path);
-    if (!is_new) {
-      throw UsageError({.where = path.string(),
-                        .what = first->second == path ? "the output is named twice"
-                                                      : "the output is named twice, as " +
-                                                            quoted(first->second.string()) + " too",
-                        .remedy = "Name each output once."});
-    }
-  }
 }
 
 void make_folder_of(const std::filesystem::path& path) {
@@ -133,10 +105,8 @@ bool needs_face(const SynthOptions& options) {
 
 void check_synth_options(const SynthOptions& options) {
   check_range("--fps", options.fps, 1.0, 1000.0);
-  check_range("--smoothing", options.smoothing_half_window, 0, 100);
+  check_motion_options(options);
   check_range("--runners-up", options.runners_up, 0, 100);
-  check_range("--threads", options.threads, 0, 256);
-  check_range("--blend", options.blend.value_or(kUsualBlend), 1, 100);
   check_outputs_differ(options.outputs);
   if (needs_face(options) && options.face.empty()) {
     throw UsageError({.what = "a .glb or .html output needs a face",

@@ -30,9 +30,15 @@ std::string face_note(const MarkerFace& face, const PcaModel& pca) {
 
 } // namespace
 
-SynthStock::SynthStock(MotionTable table)
-    : table_(std::move(table)), paper_weights_(default_cost_weights(table_, CostModel::paper)),
-      context_weights_(default_cost_weights(table_, CostModel::context)) {}
+SynthStock::SynthStock(MotionTable table) : table_(std::move(table)) {}
+
+const CostWeights& SynthStock::default_weights(CostModel model) {
+  const std::scoped_lock lock(mutex_);
+  const auto known = default_weights_.find(model);
+  return known != default_weights_.end()
+             ? known->second
+             : default_weights_.emplace(model, default_cost_weights(table_, model)).first->second;
+}
 
 const FittedFace& SynthStock::face(const std::filesystem::path& path) {
   const std::scoped_lock lock(mutex_);

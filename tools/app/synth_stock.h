@@ -26,9 +26,8 @@ public:
   explicit SynthStock(MotionTable table);
 
   const MotionTable& table() const { return table_; }
-  const CostWeights& default_weights(CostModel model) const {
-    return model == CostModel::paper ? paper_weights_ : context_weights_;
-  }
+  // Found when they are first asked for.
+  const CostWeights& default_weights(CostModel model);
 
   // The face that `--face PATH` names, fitted when it is first asked for, kept as long as this.
   // Throws InputError and IoError.
@@ -36,9 +35,8 @@ public:
 
 private:
   MotionTable table_;
-  CostWeights paper_weights_;
-  CostWeights context_weights_;
   std::mutex mutex_;
+  std::map<CostModel, CostWeights> default_weights_;
   std::map<std::filesystem::path, FittedFace> faces_;
 };
 

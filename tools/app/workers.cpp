@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/app/workers.h"
 
+#include <algorithm>
 #include <system_error>
 #include <thread>
 #include <vector>
 
 namespace phonomime {
+
+std::size_t worker_count(int threads) {
+  return threads > 0 ? static_cast<std::size_t>(threads)
+                     : std::max(1u, std::thread::hardware_concurrency());
+}
 
 void share_out(std::size_t count, std::size_t workers, const std::atomic<bool>* stop,
                const std::function<void(std::size_t worker, std::size_t i)>& body) {

@@ -7,6 +7,9 @@
 
 namespace phonomime {
 
+// As many as are asked for; 0: one for each core.
+std::size_t worker_count(int threads);
+
 // body(worker, i) for each i < count once, in order of i as workers (numbers below `workers`) get
 // free, one of them in the calling thread. They are threads of their own, each of which may use
 // OpenMP. Once `stop` is set no further i begins; the call ends when those that have begun are

@@ -5,10 +5,9 @@
 #include "db/types/text.h"
 
 #include <algorithm>
-#include <initializer_list>
 #include <numbers>
+#include <span>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,21 +16,20 @@ namespace phonomime {
 
 namespace {
 
+// The member of an enumeration that has this name; `names` in its order.
 template <typename Choice>
 Choice parse_choice(const char* option, const char* fault, const std::string& text,
-                    std::initializer_list<std::pair<const char*, Choice>> choices) {
-  std::vector<std::string> names;
-  for (const auto& [name, choice] : choices) {
-    if (text == name) {
-      return choice;
-    }
-    names.emplace_back(name);
+                    std::span<const std::string_view> names) {
+  const auto found = std::ranges::find(names, text);
+  if (found == names.end()) {
+    throw UsageError(
+        {.where = option,
+         .what = fault,
+         .expected = fmt::format("one of {}", fmt::join(names, ", ")),
+         .got = quoted(text),
+         .remedy = did_you_mean(text, std::vector<std::string>(names.begin(), names.end()))});
   }
-  throw UsageError({.where = option,
-                    .what = fault,
-                    .expected = fmt::format("one of {}", fmt::join(names, ", ")),
-                    .got = quoted(text),
-                    .remedy = did_you_mean(text, names)});
+  return static_cast<Choice>(found - names.begin());
 }
 
 } // namespace
@@ -66,25 +64,21 @@ HeadPose parse_head(const std::string& text) {
 
 SilenceFill parse_silence(const std::string& text) {
   return parse_choice<SilenceFill>("--silence", "there is no such way to fill silence", text,
-                                   {{"linear", SilenceFill::linear},
-                                    {"cosine", SilenceFill::cosine},
-                                    {"cubic", SilenceFill::cubic}});
+                                   kSilenceFillNames);
 }
 
 std::optional<CostModel> parse_cost(const std::string& text) {
   if (text.empty()) {
     return std::nullopt;
   }
-  return parse_choice<CostModel>("--cost", "there is no such cost", text,
-                                 {{"paper", CostModel::paper}, {"context", CostModel::context}});
+  return parse_choice<CostModel>("--cost", "there is no such cost", text, kCostModelNames);
 }
 
 std::optional<Scale> parse_scale(const std::string& text) {
   if (text.empty()) {
     return std::nullopt;
   }
-  return parse_choice<Scale>("--scale", "there is no such scale", text,
-                             {{"measured", Scale::measured}, {"nominal", Scale::nominal}});
+  return parse_choice<Scale>("--scale", "there is no such scale", text, kScaleNames);
 }
 
 void check_verb(std::span<const char* const> call, const std::vector<std::string>& verbs) {

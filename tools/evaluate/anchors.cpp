@@ -2,7 +2,7 @@
 #include "tools/evaluate/anchors.h"
 
 #include "db/types/errors.h"
-#include "tools/evaluate/row_frames.h"
+#include "db/types/row_frames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,9 @@
 #include "tools/evaluate/measures.h"
 
 #include "db/types/errors.h"
+#include "db/types/row_frames.h"
+#include "db/types/sentence_key.h"
 #include "tools/evaluate/measured_motion.h"
-#include "tools/evaluate/row_frames.h"
 #include "tools/evaluate/time_warping.h"
 
 #include <algorithm>
@@ -294,10 +295,6 @@ SentenceMeasures measure_sentence(const MeasureSetup& setup, const ImportedSente
                                   std::span<const JoinPlace> joins) {
   check(setup, recorded, synthesised);
   return Meter(setup, recorded, synthesised).measure(joins);
-}
-
-std::string sentence_key(const ImportedSentence& sentence) {
-  return sentence.speaker + "/" + sentence.emotion + "/" + sentence.id;
 }
 
 } // namespace phonomime

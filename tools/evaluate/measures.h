@@ -58,7 +58,4 @@ struct SentenceMeasures {
 SentenceMeasures measure_sentence(const MeasureSetup& setup, const ImportedSentence& recorded,
                                   const FrameMatrix& synthesised, std::span<const JoinPlace> joins);
 
-// "speaker/emotion/id", as in node keys.
-std::string sentence_key(const ImportedSentence& sentence);
-
 } // namespace phonomime

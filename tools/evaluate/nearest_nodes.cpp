@@ -2,7 +2,7 @@
 #include "tools/evaluate/nearest_nodes.h"
 
 #include "db/types/errors.h"
-#include "synth/concat/time_warp.h"
+#include "db/types/time_warp.h"
 
 #include <limits>
 #include <utility>

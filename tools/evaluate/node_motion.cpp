@@ -2,7 +2,8 @@
 #include "tools/evaluate/node_motion.h"
 
 #include "db/types/errors.h"
-#include "tools/evaluate/row_frames.h"
+#include "db/types/row_frames.h"
+#include "synth/pipeline/path_steps.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,14 +11,6 @@
 #include <fmt/format.h>
 
 namespace phonomime {
-
-namespace {
-
-bool follows_on(const MotionTable& table, NodeIndex node, NodeIndex before) {
-  return table.nodes[static_cast<std::size_t>(node)].predecessor == before;
-}
-
-} // namespace
 
 FrameMatrix to_channels(const PcaModel& pca, const Eigen::Ref<const FrameMatrixD>& coefficients,
                         Eigen::Index frame_count) {
@@ -43,8 +36,7 @@ std::vector<JoinPlace> join_places(const MotionTable& table, std::span<const Tim
   std::vector<JoinPlace> joins;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (!rows[i].is_silence() && !rows[i - 1].is_silence()) {
-      joins.push_back(
-          {.frame = frames[i].first, .captured = follows_on(table, nodes[i], nodes[i - 1])});
+      joins.push_back({.frame = frames[i].first, .captured = is_captured(table, rows, nodes, i)});
     }
   }
   return joins;
@@ -52,16 +44,7 @@ std::vector<JoinPlace> join_places(const MotionTable& table, std::span<const Tim
 
 SynthesisedSentence say_nodes(const MotionTable& table, const SentenceRequest& request,
                               std::span<const NodeIndex> nodes, const ConcatOptions& options) {
-  std::vector<ConcatStep> steps;
-  for (std::size_t i = 0; i < request.rows.size(); ++i) {
-    const TimedPhoneme& row = request.rows[i];
-    const bool joins = i > 0 && !row.is_silence() && !request.rows[i - 1].is_silence();
-    steps.push_back({.is_silence = row.is_silence(),
-                     .start_s = row.start_s,
-                     .end_s = row.end_s,
-                     .node = nodes[i],
-                     .captured = joins && follows_on(table, nodes[i], nodes[i - 1])});
-  }
+  const std::vector<ConcatStep> steps = path_steps(table, request.rows, nodes);
   const CoefficientMotion motion = concatenate(table, steps, options);
   return {.method = {},
           .channels = to_channels(table.pca, motion.coefficients, request.frame_count),

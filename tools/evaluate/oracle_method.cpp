@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/types/errors.h"
+#include "db/types/row_frames.h"
 #include "tools/evaluate/methods.h"
 #include "tools/evaluate/nearest_nodes.h"
 #include "tools/evaluate/node_motion.h"
-#include "tools/evaluate/row_frames.h"
 
 namespace phonomime {
 

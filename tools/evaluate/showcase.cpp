@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/evaluate/showcase.h"
 
+#include "db/types/sentence_key.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <functional>

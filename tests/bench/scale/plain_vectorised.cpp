@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/scale/plain_vectorised.h"
 
+#include "db/types/vector_dispatch.h"
+#include "db/types/vector_lanes.h"
 #include "synth/search/step_costs.h"
-#include "synth/search/vector_dispatch.h"
-#include "synth/search/vector_lanes.h"
 
 #include <algorithm>
 #include <array>

@@ -2,10 +2,10 @@
 #include "tools/evaluate/method.h"
 
 #include "db/types/errors.h"
+#include "db/types/row_frames.h"
 #include "synth/pipeline/synthesize.h"
 #include "tests/tools/evaluate/small_table.h"
 #include "tools/evaluate/anchors.h"
-#include "tools/evaluate/row_frames.h"
 
 #include <gtest/gtest.h>
 

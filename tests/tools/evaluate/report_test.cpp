@@ -3,6 +3,7 @@
 
 #include "db/types/file_io.h"
 #include "db/types/json_file.h"
+#include "db/types/sentence_key.h"
 #include "db/types/text.h"
 #include "tests/tools/evaluate/made_evaluation.h"
 

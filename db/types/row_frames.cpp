@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/evaluate/row_frames.h"
+#include "db/types/row_frames.h"
 
 namespace phonomime {
 

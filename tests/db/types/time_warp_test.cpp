@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "synth/concat/time_warp.h"
+#include "db/types/time_warp.h"
 
 #include <random>
 

@@ -9,9 +9,9 @@
 
 namespace phonomime {
 
-// The frames of each row of an alignment, one range a row, as the importer cuts nodes and
-// concatenate() shares frames out (assign_frames): a phoneme has at least one where there are
-// enough. `rows` follow on one another from 0 without holes.
+// The frames of each row of an alignment or transcript, one range a row (assign_frames), those of
+// its motion nodes: a phoneme has at least one where there are enough. `rows` follow on one another
+// from 0 without holes.
 std::vector<FrameRange> row_frames(std::span<const TimedPhoneme> rows, double rate_hz);
 
 } // namespace phonomime

@@ -11,5 +11,6 @@ namespace phonomime {
 // its length keeps its values bit for bit. `node`: n by #dimensions, n >= 1. `warped`: m by
 // #dimensions, written.
 void time_warp(const Eigen::Ref<const FrameMatrix>& node, Eigen::Ref<FrameMatrixD> warped);
+void time_warp(const Eigen::Ref<const FrameMatrixD>& node, Eigen::Ref<FrameMatrixD> warped);
 
 } // namespace phonomime
