@@ -50,7 +50,7 @@ StepPenalties::StepPenalties(const MotionTable& table, const NodeClasses& classe
     : StepPenalties(classes, step, fit, make_free(table, classes, step, weights, fit),
                     weights.pnt) {}
 
-std::shared_ptr<const StepPenalties::Free>
+std::shared_ptr<StepPenalties::Free>
 StepPenalties::make_free(const MotionTable& table, const NodeClasses& classes,
                          const SearchStep& step, const CostWeights& weights, ContextFit& fit) {
   auto free = std::make_shared<Free>();
@@ -65,28 +65,26 @@ StepPenalties::make_free(const MotionTable& table, const NodeClasses& classes,
   if (fit.counts()) {
     free->wish = fit.wish(step, classes);
   }
-  if (!free->wish.asks) {
-    return free;
-  }
-  free->fits.resize(classes.size());
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    if (free->by_class[c] > free->by_class[free->order.front()] + kNearWithFit * weights.pnt) {
-      continue;
-    }
-    const std::span<const NodeIndex> nodes = classes.nodes(c);
-    fit.ensure(nodes);
-    std::vector<double>& sums = free->fits[c];
-    sums.resize(nodes.size());
-#pragma omp parallel for schedule(static) if (nodes.size() > kWorthThreads)
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      sums[i] = fit.fit(free->wish, nodes[i], true).sum();
-    }
-  }
+  free->fits.resize(free->wish.asks ? classes.size() : 0);
   return free;
 }
 
-StepPenalties::StepPenalties(const NodeClasses& classes, const SearchStep& step,
-                             const ContextFit& fit, std::shared_ptr<const Free> free, double pnt)
+void StepPenalties::learn_fits(std::size_t class_index) const {
+  std::vector<double>& sums = free_->fits[class_index];
+  if (!sums.empty()) {
+    return;
+  }
+  const std::span<const NodeIndex> nodes = classes_.nodes(class_index);
+  fit_.ensure(nodes);
+  sums.resize(nodes.size());
+#pragma omp parallel for schedule(static) if (nodes.size() > kWorthThreads)
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    sums[i] = fit_.fit(free_->wish, nodes[i], true).sum();
+  }
+}
+
+StepPenalties::StepPenalties(const NodeClasses& classes, const SearchStep& step, ContextFit& fit,
+                             std::shared_ptr<Free> free, double pnt)
     : classes_(classes), step_(step), fit_(fit), free_(std::move(free)), pnt_(pnt),
       least_(kInfinity), near_(kInfinity) {
   const auto add = [&](std::span<const NodeIndex> nodes) {
@@ -104,6 +102,9 @@ StepPenalties::StepPenalties(const NodeClasses& classes, const SearchStep& step,
   for (const std::size_t c : free_->order) {
     if (!step.allowed.empty() || free_->by_class[c] >= least_) {
       break;
+    }
+    if (free_->wish.asks) {
+      learn_fits(c);
     }
     add(classes.nodes(c));
   }
@@ -150,6 +151,7 @@ std::vector<NodeIndex> StepPenalties::nodes_up_to(double most) const {
     if (!free_->wish.asks || most == kInfinity) {
       append(classes_.nodes(c));
     } else {
+      learn_fits(c);
       std::ranges::copy_if(classes_.nodes(c), std::back_inserter(members),
                            [&](NodeIndex node) { return (*this)[node] <= most; });
     }
@@ -164,6 +166,7 @@ double StepPenalties::least_beyond(double most) const {
     if (free_->by_class[c] > most) {
       least = std::min(least, free_->by_class[c]);
     } else if (free_->wish.asks && most < kInfinity) {
+      learn_fits(c);
       for (const NodeIndex node : classes_.nodes(c)) {
         if (const double penalty = (*this)[node]; penalty > most) {
           least = std::min(least, penalty);

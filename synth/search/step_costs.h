@@ -43,6 +43,7 @@ public:
   double near() const { return near_; }
 
   // The nodes of a penalty up to `most`, ascending; all that are allowed where the step names them.
+  // Neither this nor least_beyond() is for parallel regions: they learn fits.
   std::vector<NodeIndex> nodes_up_to(double most) const;
   // At most the least penalty of any other node than nodes_up_to(most); infinite where none is
   // left.
@@ -56,18 +57,19 @@ private:
     std::vector<double> by_class;   // OC + EMP
     std::vector<std::size_t> order; // of the classes, cheapest first
     ContextFit::Wish wish;
-    std::vector<std::vector<double>> fits; // per class its nodes', or empty: not known ahead
+    std::vector<std::vector<double>> fits; // per class its nodes', or empty: not learnt yet
   };
-  static std::shared_ptr<const Free> make_free(const MotionTable& table, const NodeClasses& classes,
-                                               const SearchStep& step, const CostWeights& weights,
-                                               ContextFit& fit);
-  StepPenalties(const NodeClasses& classes, const SearchStep& step, const ContextFit& fit,
-                std::shared_ptr<const Free> free, double pnt);
+  static std::shared_ptr<Free> make_free(const MotionTable& table, const NodeClasses& classes,
+                                         const SearchStep& step, const CostWeights& weights,
+                                         ContextFit& fit);
+  StepPenalties(const NodeClasses& classes, const SearchStep& step, ContextFit& fit,
+                std::shared_ptr<Free> free, double pnt);
+  void learn_fits(std::size_t class_index) const;
 
   const NodeClasses& classes_;
   const SearchStep& step_;
-  const ContextFit& fit_;
-  std::shared_ptr<const Free> free_;
+  ContextFit& fit_;
+  std::shared_ptr<Free> free_;
   double pnt_;
   double least_;
   double near_;
