@@ -6,10 +6,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace phonomime {
 
 namespace {
+
+// In PNT. Bounds of an earlier search are used again as long as the path that is sought costs at
+// most so much more than theirs did; beyond, new bounds are sooner made than too many states kept.
+constexpr double kStillTight = 2.0;
 
 // Bounds of all that follows each step.
 std::vector<StepBounds> bounds_to_go(JoinKernels& kernels, std::span<const StepPenalties> penalties,
@@ -37,6 +42,33 @@ std::vector<NodeIndex> path_along(std::span<const StepBounds> to_go, JoinKernels
   return path;
 }
 
+// The cost of a real path, which bounds that hold but are not tight lead to: the best one by the
+// few nodes of every step whose bounds are least.
+double cost_by_few(SearchSpace& space, std::span<const SearchStep> steps,
+                   std::span<const StepPenalties> penalties, std::span<const StepBounds> to_go,
+                   const Progress& progress, JoinFrontier::Counts& counts) {
+  constexpr std::size_t kFew = 64;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<StepBounds> few(to_go.begin(), to_go.end());
+  for (std::size_t t = 0; t < few.size(); ++t) {
+    std::vector<double> ahead;
+    for (std::size_t i = 0; i < few[t].active.size(); ++i) {
+      ahead.push_back(penalties[t][few[t].active[i]] + few[t].bound[i]);
+    }
+    const std::size_t last = std::min(kFew, ahead.size()) - 1;
+    std::ranges::nth_element(ahead, ahead.begin() + static_cast<std::ptrdiff_t>(last));
+    const double most = ahead[last];
+    few[t].keep_if([&](NodeIndex node, double bound) {
+      const double value = penalties[t][node] + bound;
+      return value <= most && value < kInfinity;
+    });
+    few[t].active_penalty = kInfinity;
+    few[t].inactive_bound = kInfinity;
+  }
+  const LatticeInput input{steps, penalties, few, space.kernels, progress};
+  return best_path(input, exact_lattice(input, kInfinity, counts)).cost;
+}
+
 // `step` without the nodes in `used` (ascending), unless that would leave none of `near`.
 SearchStep without(const SearchStep& step, std::span<const NodeIndex> used,
                    std::span<const NodeIndex> near) {
@@ -46,6 +78,10 @@ SearchStep without(const SearchStep& step, std::span<const NodeIndex> used,
   const bool any =
       std::ranges::any_of(near, [&](NodeIndex node) { return is_allowed(rest, node); });
   return any ? rest : step;
+}
+
+bool avoids_no_more(const SearchStep& a, const SearchStep& b) {
+  return std::ranges::includes(b.avoided, a.avoided);
 }
 
 } // namespace
@@ -64,17 +100,23 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
   }
   const ThreadCount threads(options.threads);
   JoinFrontier::Counts counts;
-  const auto solve = [&](std::span<const SearchStep> asked,
-                         std::span<const StepPenalties> penalties, const SearchOptions& wanted) {
-    const std::vector<StepBounds> to_go = bounds_to_go(space_.kernels, penalties, progress, counts);
-    const std::vector<NodeIndex> path = path_along(to_go, space_.kernels, penalties, counts);
-    const double upper_bound = cost_of_path(space_.kernels, penalties, path, counts);
+  std::vector<StepBounds> to_go;
+  const auto search = [&](std::span<const SearchStep> asked,
+                          std::span<const StepPenalties> penalties, double upper_bound,
+                          int runners_up) {
     return exact_search(
-        space_, asked, penalties, upper_bound, [&](double) { return to_go; }, wanted, progress,
-        counts);
+        space_, asked, penalties, upper_bound, [&](double) { return to_go; },
+        {.runners_up = runners_up}, progress, counts);
+  };
+  const auto solve = [&](std::span<const SearchStep> asked,
+                         std::span<const StepPenalties> penalties, int runners_up) {
+    to_go = bounds_to_go(space_.kernels, penalties, progress, counts);
+    const std::vector<NodeIndex> path = path_along(to_go, space_.kernels, penalties, counts);
+    return search(asked, penalties, cost_of_path(space_.kernels, penalties, path, counts),
+                  runners_up);
   };
   const std::vector<StepPenalties> free = space_.penalties(steps);
-  paths.best = solve(steps, free, options);
+  paths.best = solve(steps, free, options.runners_up);
   if (count <= 1 || (goes_on && !goes_on(paths.best.path))) {
     return paths;
   }
@@ -83,6 +125,8 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
     near.push_back(penalties.nodes_up_to(penalties.near()));
   }
   std::vector<NodeIndex> used = paths.best.path.nodes;
+  double cost_of_bounds = paths.best.path.cost; // of the path that to_go was made for
+  std::vector<SearchStep> bounded(steps.begin(), steps.end());
   while (static_cast<int>(paths.others.size()) + 1 < count) {
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -94,7 +138,18 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
     for (std::size_t t = 0; t < steps.size(); ++t) {
       penalties.push_back(free[t].under(rest[t]));
     }
-    paths.others.push_back(solve(rest, penalties, {.threads = options.threads}).path);
+    // Bounds of an earlier search go on to hold where bans have only been added.
+    double upper_bound = std::numeric_limits<double>::infinity();
+    if (std::ranges::equal(bounded, rest, avoids_no_more)) {
+      upper_bound = cost_by_few(space_, rest, penalties, to_go, progress, counts);
+    }
+    if (upper_bound - cost_of_bounds <= kStillTight * space_.weights.pnt) {
+      paths.others.push_back(search(rest, penalties, upper_bound, 0).path);
+    } else {
+      paths.others.push_back(solve(rest, penalties, 0).path);
+      cost_of_bounds = paths.others.back().cost;
+      bounded = rest;
+    }
     used.insert(used.end(), paths.others.back().nodes.begin(), paths.others.back().nodes.end());
   }
   return paths;
