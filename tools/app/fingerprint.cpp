@@ -138,7 +138,7 @@ std::string fingerprint(const SynthOptions& options, const std::string& table,
                         FileFingerprints& files) {
   const auto& [database, transcript, outputs, speaker, phoneme_set, tier, emotion, emotions,
                constraints, cost, blend, weights, audio, face, fps, head, silence,
-               smoothing_half_window, runners_up, threads, make_folders] = options;
+               smoothing_half_window, runners_up, tells_result, threads, make_folders] = options;
   Values values;
   const auto add_file = [&](const std::filesystem::path& file) {
     values.add(file.empty());
@@ -146,8 +146,8 @@ std::string fingerprint(const SynthOptions& options, const std::string& table,
       values.add(files.of(file));
     }
   };
-  // The recordings of `speaker` in `database` are `table`; neither threads nor folders
-  // change a byte.
+  // The recordings of `speaker` in `database` are `table`; neither threads nor folders nor what is
+  // told beside the outputs change a byte of them.
   values.add_all(std::string_view("phonomime " PHONOMIME_VERSION), table);
   values.add(transcript.filename().string());
   add_file(transcript);

@@ -36,7 +36,8 @@ struct SynthOptions {
   std::optional<HeadPose> head;  // constant; empty: the head rests
   SilenceOptions silence;
   int smoothing_half_window = 3; // s of E16, frames, 0 to 100
-  int runners_up = 3;            // per phoneme, 0 to 100
+  int runners_up = 3;            // per phoneme, 0 to 100, where a .json or .txt output tells them
+  bool tells_result = false;     // as such an output does: the report's result_json is wanted
   int threads = 0;               // 0 = as many as there are cores
   bool make_folders = false;     // of the outputs, where they are missing
 };

@@ -9,6 +9,7 @@
 #include "db/types/text.h"
 #include "synth/pipeline/transcript_steps.h"
 #include "synth/search/cost_weights.h"
+#include "tools/app/synth_outputs.h"
 
 #include <algorithm>
 #include <utility>
@@ -128,7 +129,8 @@ SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTab
   input.constraints = read_constraints(options);
   input.weights = read_weights(options, default_weights);
   input.blend = options.blend.value_or(kUsualBlend);
-  input.search = {.threads = options.threads, .runners_up = options.runners_up};
+  input.search = {.threads = options.threads,
+                  .runners_up = tells_runners_up(options) ? options.runners_up : 0};
   input.concat = concat_options(options);
   input.fps = options.fps;
   return input;

@@ -103,6 +103,13 @@ bool needs_face(const SynthOptions& options) {
   return std::ranges::any_of(options.outputs, shows_face);
 }
 
+bool tells_runners_up(const SynthOptions& options) {
+  return options.tells_result || std::ranges::any_of(options.outputs, [](const auto& path) {
+           const OutputKind kind = output_kind(path);
+           return kind == OutputKind::json || kind == OutputKind::text;
+         });
+}
+
 void check_synth_options(const SynthOptions& options) {
   check_range("--fps", options.fps, 1.0, 1000.0);
   check_motion_options(options);

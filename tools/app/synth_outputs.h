@@ -19,6 +19,9 @@ void check_synth_options(const SynthOptions& options);
 // Whether some output shows the face.
 bool needs_face(const SynthOptions& options);
 
+// Whether anybody is told of runners-up.
+bool tells_runners_up(const SynthOptions& options);
+
 // The outputs of one synthesis. Everything that they need is read first, so that a missing face or
 // sound is known before the search.
 class SynthOutputs {

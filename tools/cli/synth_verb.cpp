@@ -9,7 +9,9 @@ namespace phonomime {
 
 void run_verb(const SynthArguments& arguments, const CommonArguments& common,
               const Progress& progress) {
-  const SynthReport report = run_synth(arguments.options, progress);
+  SynthOptions options = arguments.options;
+  options.tells_result = common.json;
+  const SynthReport report = run_synth(options, progress);
   clear_progress();
   if (!common.quiet) {
     for (const std::string& warning : report.warnings) {
