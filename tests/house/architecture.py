@@ -20,8 +20,9 @@ MAY_KNOW = {
     "synth/pipeline": {"db/types", *(f"synth/{stage}" for stage in STAGES)},
     "tools/demo": {"db/types"},
     "tools/evaluate": {"db/types", "synth/search", "synth/concat", "synth/pipeline"},
+    "tools/tune": {"db/types", "synth/search", "tools/evaluate"},
     "tools/app": {"db/types", "db/store", "db/import", "isomap", "synth/pipeline", "tools/evaluate",
-                  *(f"synth/{stage}" for stage in STAGES)},
+                  "tools/tune", *(f"synth/{stage}" for stage in STAGES)},
     "tools/cli": {"db/types", "db/store", "db/import", "synth/pipeline", "tools/evaluate",
                   "tools/app"},
     "tools/studio": {"db/types", "tools/app"},
@@ -39,7 +40,8 @@ FEW_FILES = {
     "valijson": (re.compile(r"^valijson/"), 1),
     "libsndfile": (re.compile(r"^sndfile\.h"), 1),
     "OpenSSL": (re.compile(r"^openssl/"), 1),
-    "CLI11": (re.compile(r"^CLI/"), 2),
+    "NLopt": (re.compile(r"^nlopt"), 1),
+    "CLI11": (re.compile(r"^CLI/"), 3),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]*)"|<([^>]*)>)')

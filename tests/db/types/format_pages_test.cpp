@@ -149,6 +149,11 @@ TEST(FormatPages, EveryExampleIsWhatItsPageSays) {
          const EarlierRun run = parse_evaluation(text, "evaluation.md");
          EXPECT_EQ(run.methods.at(0).sentences.at(1).values[Measure::rmse], 1.8);
        }},
+      {"tuning json",
+       [](const std::string& text) {
+         const nlohmann::json tuning = parse_json_as("tuning", text, "tuning.md");
+         EXPECT_EQ(tuning.at("all").at("looks").size(), 2u);
+       }},
       {"database key", [](const std::string& text) {
          MotionTable table;
          table.speaker = "s1";
