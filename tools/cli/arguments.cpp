@@ -211,6 +211,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   add_synth(app, words);
   add_batch(app, words);
   add_evaluate(app, words);
+  add_tune(app, words);
   add_explain(app, words);
   add_common(app, words.arguments.common);
   check_verb(std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0),
@@ -237,8 +238,11 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   words.synth.options.silence = {.fill = parse_silence(words.silence),
                                  .rest_at_ends = !words.no_rest};
   words.evaluate.options.synth.silence = words.synth.options.silence;
+  words.tune.options.synth.silence = words.synth.options.silence;
+  words.tune.options.synth.cost = words.synth.options.cost;
   words.import.options.recordings.scale = parse_scale(words.scale);
   words.evaluate.options.import.recordings.scale = words.import.options.recordings.scale;
+  words.tune.options.import.recordings.scale = words.import.options.recordings.scale;
   const std::string verb = app.get_subcommands().front()->get_name();
   if (verb == "import") {
     words.arguments.verb = words.import;
@@ -260,6 +264,8 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     words.arguments.verb = BatchArguments{words.batch};
   } else if (verb == "evaluate") {
     words.arguments.verb = words.evaluate;
+  } else if (verb == "tune") {
+    words.arguments.verb = words.tune;
   } else {
     words.arguments.verb = words.explain;
   }

@@ -7,6 +7,7 @@
 #include "tools/app/import_corpus.h"
 #include "tools/app/stream.h"
 #include "tools/app/synth.h"
+#include "tools/app/tune.h"
 
 #include <filesystem>
 #include <string>
@@ -51,6 +52,10 @@ struct EvaluateArguments {
   EvaluateOptions options;
 };
 
+struct TuneArguments {
+  TuneOptions options;
+};
+
 struct ExplainArguments {
   std::filesystem::path result;
 };
@@ -63,7 +68,7 @@ struct PrintArguments {
 struct Arguments {
   CommonArguments common;
   std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SynthArguments,
-               StreamArguments, BatchArguments, EvaluateArguments, ExplainArguments>
+               StreamArguments, BatchArguments, EvaluateArguments, TuneArguments, ExplainArguments>
       verb;
 };
 

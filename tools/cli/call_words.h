@@ -22,6 +22,7 @@ struct CallWords {
   StreamOptions stream; // but its synthesis
   BatchOptions batch;   // but its synthesis
   EvaluateArguments evaluate;
+  TuneArguments tune;
   ExplainArguments explain;
   bool only_suspect = false, only_pruned = false, only_gaps = false;
   std::string scale, cost, head, silence = "linear", shard = "1/1";
@@ -35,8 +36,19 @@ void add_database(CLI::App* verb, std::filesystem::path& database, bool option);
 
 void add_scale(CLI::App* verb, CallWords& words);
 
+// How the search weighs nodes, how many paths are blended.
+void add_cost(CLI::App* verb, CallWords& words);
+void add_weights(CLI::App* verb, SynthOptions& options);
+void add_blend(CLI::App* verb, SynthOptions& options);
+
+// How nodes become motion, for every verb that makes any.
+void add_joins(CLI::App* verb, SynthOptions& options, CallWords& words);
+
+void add_threads(CLI::App* verb, SynthOptions& options);
+
 void add_synth(CLI::App& app, CallWords& words);
 void add_batch(CLI::App& app, CallWords& words);
 void add_evaluate(CLI::App& app, CallWords& words);
+void add_tune(CLI::App& app, CallWords& words);
 
 } // namespace phonomime

@@ -7,17 +7,6 @@ namespace phonomime {
 
 namespace {
 
-void add_weights(CLI::App* verb, SynthOptions& options) {
-  verb->add_option("--weights", options.weights, "Cost weights of the search (JSON)")
-      ->type_name("FILE");
-}
-
-void add_blend(CLI::App* verb, SynthOptions& options) {
-  verb->add_option("--blend", options.blend,
-                   "Node-disjoint paths whose motion is blended, 1 to 100 (default: 8)")
-      ->type_name("K");
-}
-
 void add_synth_inputs(CLI::App* verb, SynthOptions& options, CallWords& words) {
   verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
       ->type_name("NAME");
@@ -29,10 +18,7 @@ void add_synth_inputs(CLI::App* verb, SynthOptions& options, CallWords& words) {
   verb->add_option("--constraints", options.constraints,
                    "Constraint file: which nodes to use or to avoid, and where")
       ->type_name("FILE");
-  verb->add_option("--cost", words.cost,
-                   "The search's cost: paper (Deng and Neumann's alone) or context (also how well "
-                   "nodes fit what is said around them; default)")
-      ->type_name("COST");
+  add_cost(verb, words);
   add_weights(verb, options);
   add_blend(verb, options);
   verb->add_option("--phoneme-set", options.phoneme_set,
@@ -45,26 +31,6 @@ void add_synth_inputs(CLI::App* verb, SynthOptions& options, CallWords& words) {
   verb->add_option("--face", options.face,
                    "Mesh (.obj, .glb) or the folder with it; needed for .glb and .html")
       ->type_name("FACE");
-}
-
-// How nodes become motion, for every verb that makes any.
-void add_joins(CLI::App* verb, SynthOptions& options, CallWords& words) {
-  verb->add_option("--silence", words.silence, "How inner silence is filled: linear, cosine, cubic")
-      ->type_name("FILL")
-      ->capture_default_str();
-  verb->add_flag("--no-rest", words.no_rest,
-                 "Hold the first and the last pose through silence at the ends, instead of the "
-                 "face at rest");
-  verb->add_option("--smoothing", options.smoothing_half_window,
-                   "Frames on either side of a join that are smoothed, 0 to 100")
-      ->type_name("N")
-      ->capture_default_str();
-}
-
-void add_threads(CLI::App* verb, SynthOptions& options) {
-  verb->add_option("--threads", options.threads,
-                   "Threads to work with (default: one for each core)")
-      ->type_name("N");
 }
 
 // All that makes motion of a transcript, for every verb that does.
@@ -86,6 +52,43 @@ void add_synth_options(CLI::App* verb, CallWords& words) {
 }
 
 } // namespace
+
+void add_weights(CLI::App* verb, SynthOptions& options) {
+  verb->add_option("--weights", options.weights, "Cost weights of the search (JSON)")
+      ->type_name("FILE");
+}
+
+void add_blend(CLI::App* verb, SynthOptions& options) {
+  verb->add_option("--blend", options.blend,
+                   "Node-disjoint paths whose motion is blended, 1 to 100 (default: 8)")
+      ->type_name("K");
+}
+
+void add_cost(CLI::App* verb, CallWords& words) {
+  verb->add_option("--cost", words.cost,
+                   "The search's cost: paper (Deng and Neumann's alone) or context (also how well "
+                   "nodes fit what is said around them; default)")
+      ->type_name("COST");
+}
+
+void add_joins(CLI::App* verb, SynthOptions& options, CallWords& words) {
+  verb->add_option("--silence", words.silence, "How inner silence is filled: linear, cosine, cubic")
+      ->type_name("FILL")
+      ->capture_default_str();
+  verb->add_flag("--no-rest", words.no_rest,
+                 "Hold the first and the last pose through silence at the ends, instead of the "
+                 "face at rest");
+  verb->add_option("--smoothing", options.smoothing_half_window,
+                   "Frames on either side of a join that are smoothed, 0 to 100")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+void add_threads(CLI::App* verb, SynthOptions& options) {
+  verb->add_option("--threads", options.threads,
+                   "Threads to work with (default: one for each core)")
+      ->type_name("N");
+}
 
 void add_synth(CLI::App& app, CallWords& words) {
   CLI::App* verb = app.add_subcommand("synth", "A transcript in, a talking face out");
@@ -146,58 +149,6 @@ void add_batch(CLI::App& app, CallWords& words) {
   verb->add_option("--shard", words.shard, "Only the Ith of N parts of the batch")
       ->type_name("I/N");
   verb->add_flag("--redo", words.batch.redo, "Rows that are done, too");
-}
-
-void add_evaluate(CLI::App& app, CallWords& words) {
-  EvaluateOptions& options = words.evaluate.options;
-  CLI::App* verb = app.add_subcommand("evaluate", "How near to recordings syntheses of them come");
-  verb->footer("Example:\n  phonomime evaluate recordings/ann --folds 5 -o ann.html -o ann.json\n"
-               "  phonomime evaluate recordings/new --db ann.db --methods paper,oracle\n\n"
-               "Each held-out sentence is spoken by every method from its transcript and\n"
-               "compared with its recording. docs/evaluation.md explains methods and measures.");
-  verb->add_option("corpus", options.import.corpus, "The folder with corpus.json")
-      ->required()
-      ->type_name("CORPUS");
-  CLI::Option* database =
-      verb->add_option("--db", options.synth.database,
-                       "Speak with this database the sentences of CORPUS that it does not hold")
-          ->type_name("DB");
-  CLI::Option* folds =
-      verb->add_option("--folds", options.folds,
-                       "Instead: hold each of N parts of CORPUS out in turn and speak it with the "
-                       "others, 2 to 100")
-          ->type_name("N")
-          ->excludes(database);
-  verb->add_option("--fold", options.fold, "Only this part, from 1")->type_name("K")->needs(folds);
-  verb->add_option("--seed", options.seed, "Of the lots by which sentences are drawn")
-      ->type_name("SEED")
-      ->capture_default_str();
-  verb->add_option("--sentences", options.sentences,
-                   "At most so many sentences, by lot (default: all)")
-      ->type_name("N");
-  verb->add_option("--methods", options.methods, "Which methods, the main one first (default: all)")
-      ->type_name("NAME,...")
-      ->delimiter(',');
-  verb->add_flag("--sizes", options.sizes,
-                 "Also: the main method with growing parts of the recordings");
-  verb->add_option("--against", options.against,
-                   "JSON report of an earlier run: what has become better or worse")
-      ->type_name("FILE");
-  verb->add_option("-o,--output", options.synth.outputs,
-                   "Reports; the suffix says what: .html (all of it, for a browser), .json (all "
-                   "figures), .csv (a line for each sentence), .txt (as printed)")
-      ->type_name("FILE...");
-  add_weights(verb, options.synth);
-  add_blend(verb, options.synth);
-  add_joins(verb, options.synth, words);
-  verb->add_option("--dimensions", options.import.pca.dimensions,
-                   "With --folds: PCA dimensions that frames are reduced to")
-      ->type_name("N")
-      ->capture_default_str();
-  add_scale(verb, words);
-  verb->add_flag("--skip-faulty", options.import.recordings.skip_faulty,
-                 "Leave out sentences whose files are faulty instead of refusing the corpus");
-  add_threads(verb, options.synth);
 }
 
 } // namespace phonomime

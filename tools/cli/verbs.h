@@ -22,6 +22,8 @@ void run_verb(const BatchArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 void run_verb(const EvaluateArguments& arguments, const CommonArguments& common,
               const Progress& progress);
+void run_verb(const TuneArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
 void run_verb(const ExplainArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 
