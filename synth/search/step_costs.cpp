@@ -114,8 +114,10 @@ StepPenalties::StepPenalties(const NodeClasses& classes, const SearchStep& step,
   near_ = least_ + (free_->wish.asks ? kNearWithFit : kNear) * pnt;
 }
 
-StepPenalties StepPenalties::under(const SearchStep& step) const {
-  return {classes_, step, fit_, free_, pnt_};
+StepPenalties StepPenalties::under(const SearchStep& step, double further) const {
+  StepPenalties constrained(classes_, step, fit_, free_, pnt_);
+  constrained.near_ += further;
+  return constrained;
 }
 
 double StepPenalties::operator[](NodeIndex node) const {

@@ -31,8 +31,9 @@ public:
   StepPenalties(const MotionTable& table, const NodeClasses& classes, const SearchStep& step,
                 const CostWeights& weights, ContextFit& fit);
 
-  // The same under the constraints of `step`, which asks for the same otherwise.
-  StepPenalties under(const SearchStep& step) const;
+  // The same under the constraints of `step`, which asks for the same otherwise; near() reaches so
+  // much `further`.
+  StepPenalties under(const SearchStep& step, double further = 0.0) const;
 
   double operator[](NodeIndex node) const;
   FitCost fit_of(NodeIndex node) const;

@@ -134,9 +134,12 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
     for (std::size_t t = 0; t < steps.size(); ++t) {
       rest.push_back(without(steps[t], used, near[t]));
     }
+    // Later paths have dearer nodes, which have to count as near then.
+    const double dearer =
+        paths.others.empty() ? 0.0 : paths.others.back().cost - paths.best.path.cost;
     std::vector<StepPenalties> penalties;
     for (std::size_t t = 0; t < steps.size(); ++t) {
-      penalties.push_back(free[t].under(rest[t]));
+      penalties.push_back(free[t].under(rest[t], dearer / static_cast<double>(steps.size())));
     }
     // Bounds of an earlier search go on to hold where bans have only been added.
     double upper_bound = std::numeric_limits<double>::infinity();
