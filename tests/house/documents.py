@@ -55,8 +55,9 @@ def help_text(phonomime, *verb):
     return run.stdout if run.returncode == 0 else None
 
 
-def verbs(phonomime):
-    text = help_text(phonomime) or ""
+def verbs(phonomime, *verb):
+    """Of the program, or of a verb that has verbs of its own."""
+    text = help_text(phonomime, *verb) or ""
     return set(re.findall(r"^  (\w+) {2,}", text.partition("Verbs:")[2].partition("Options:")[0], re.MULTILINE))
 
 
@@ -64,6 +65,11 @@ def problems_of_phonomime(phonomime, words):
     verb = [] if words[0].startswith("-") else words[:1]
     if verb and verb[0] not in verbs(phonomime):
         return [f"there is no verb {verb[0]}"]
+    inner = verbs(phonomime, *verb) if verb else set()
+    if inner and words[1:2] and not words[1].startswith("-"):
+        verb = words[:2]
+        if words[1] not in inner:
+            return [f"there is no verb {' '.join(verb)}"]
     text = help_text(phonomime, *verb) or ""
     known = set(OPTION.findall(text.replace(",", " ")))
     return [f"phonomime {' '.join(verb)} has no option {option}" for option in words

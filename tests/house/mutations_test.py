@@ -124,6 +124,8 @@ class Mutations(unittest.TestCase):
         for command, said in (
                 ("./tools/no_such_script", "there is no script ./tools/no_such_script"),
                 ("phonomime synthesize x", "there is no verb synthesize"),
+                ("phonomime map draw x", "there is no verb map draw"),
+                ("phonomime map image x --aloud", "phonomime map image has no option --aloud"),
                 ("phonomime synth x \\\n  --no-such-option", "has no option --no-such-option"),
                 ("cmake --preset fast", "there is no preset fast"),
                 ("curl x", "curl is a command that this test does not know"),

@@ -151,8 +151,13 @@ void add_explain(CLI::App& app, CallWords& words) {
       ->type_name("RESULT");
 }
 
+// Of a verb that has verbs of its own each of those gets them.
 void add_common(CLI::App& app, CommonArguments& common) {
   for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!verb->get_subcommands({}).empty()) {
+      add_common(*verb, common);
+      continue;
+    }
     verb->add_flag("--json", common.json, "Report as JSON on stdout");
     verb->add_flag("--quiet", common.quiet, "No progress, no messages but errors");
   }
@@ -170,11 +175,22 @@ std::vector<std::string> verb_names(const CLI::App& app) {
   return names;
 }
 
+// The call's verb, and the verb's own where it has some.
+void check_verbs(const CLI::App& app, std::span<const char* const> call) {
+  check_verb(call, verb_names(app), app.get_name());
+  for (const CLI::App* verb : app.get_subcommands({})) {
+    if (!call.empty() && call.front() == verb->get_name() && !verb->get_subcommands({}).empty()) {
+      check_verb(call.subspan(1), verb_names(*verb), app.get_name() + " " + verb->get_name());
+    }
+  }
+}
+
 // CLI11 says several things at once; one line is enough for one error.
 [[noreturn]] void throw_usage(const CLI::App& app, const CLI::ParseError& error) {
   std::string verb;
-  for (const CLI::App* used : app.get_subcommands()) {
-    verb = " " + used->get_name();
+  for (const CLI::App* used = &app; !used->get_subcommands().empty();) {
+    used = used->get_subcommands().front();
+    verb += " " + used->get_name();
   }
   throw UsageError({.what = error.what(), .remedy = "See `phonomime" + verb + " --help`."});
 }
@@ -213,9 +229,10 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   add_evaluate(app, words);
   add_tune(app, words);
   add_explain(app, words);
+  add_map(app, words);
+  add_recommend(app, words);
   add_common(app, words.arguments.common);
-  check_verb(std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0),
-             verb_names(app));
+  check_verbs(app, std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0));
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -244,7 +261,12 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   words.evaluate.options.import.recordings.scale = words.import.options.recordings.scale;
   words.tune.options.import.recordings.scale = words.import.options.recordings.scale;
   const std::string verb = app.get_subcommands().front()->get_name();
-  if (verb == "import") {
+  if (verb == "map") {
+    take_map_words(*app.get_subcommands().front(), words);
+  } else if (verb == "recommend") {
+    words.recommend.options.synth = words.synth.options;
+    words.arguments.verb = words.recommend;
+  } else if (verb == "import") {
     words.arguments.verb = words.import;
   } else if (verb == "info") {
     words.arguments.verb = words.info;

@@ -8,6 +8,7 @@
 #include "tools/app/stream.h"
 #include "tools/app/synth.h"
 #include "tools/app/tune.h"
+#include "tools/cli/map_arguments.h"
 
 #include <filesystem>
 #include <string>
@@ -68,7 +69,9 @@ struct PrintArguments {
 struct Arguments {
   CommonArguments common;
   std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SynthArguments,
-               StreamArguments, BatchArguments, EvaluateArguments, TuneArguments, ExplainArguments>
+               StreamArguments, MapBuildArguments, MapShowArguments,
+               MapImageArguments, MapPickArguments, MapQualityArguments, RecommendArguments,
+               BatchArguments, EvaluateArguments, TuneArguments, ExplainArguments>
       verb;
 };
 

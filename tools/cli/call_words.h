@@ -5,12 +5,24 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
 }
 
 namespace phonomime {
+
+// Of `phonomime map ...`.
+struct MapWords {
+  MapBuildArguments build;
+  MapShowArguments show;
+  MapImageArguments image;
+  MapPickArguments pick;
+  MapQualityArguments quality;
+  std::string kind = "isomap", components = "join", size = "1000x800";
+  std::vector<std::string> context, palette;
+};
 
 // What the words of the call are put into before a verb's struct is made of them.
 struct CallWords {
@@ -24,6 +36,8 @@ struct CallWords {
   EvaluateArguments evaluate;
   TuneArguments tune;
   ExplainArguments explain;
+  MapWords map;
+  RecommendArguments recommend; // but its synthesis
   bool only_suspect = false, only_pruned = false, only_gaps = false;
   std::string scale, cost, head, silence = "linear", shard = "1/1";
   bool no_rest = false, streams = false;
@@ -35,6 +49,9 @@ struct CallWords {
 void add_database(CLI::App* verb, std::filesystem::path& database, bool option);
 
 void add_scale(CLI::App* verb, CallWords& words);
+
+// What a transcript is to be spoken like.
+void add_transcript_options(CLI::App* verb, CallWords& words);
 
 // How the search weighs nodes, how many paths are blended.
 void add_cost(CLI::App* verb, CallWords& words);
@@ -50,5 +67,10 @@ void add_synth(CLI::App& app, CallWords& words);
 void add_batch(CLI::App& app, CallWords& words);
 void add_evaluate(CLI::App& app, CallWords& words);
 void add_tune(CLI::App& app, CallWords& words);
+
+void add_map(CLI::App& app, CallWords& words);
+void add_recommend(CLI::App& app, CallWords& words);
+// Which of the verbs of `map` it is.
+void take_map_words(const CLI::App& map, CallWords& words);
 
 } // namespace phonomime

@@ -8,25 +8,8 @@ namespace phonomime {
 namespace {
 
 void add_synth_inputs(CLI::App* verb, SynthOptions& options, CallWords& words) {
-  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
-      ->type_name("NAME");
-  verb->add_option("--emotion", options.emotion, "One emotion throughout (default: neutral)")
-      ->type_name("NAME[:INTENSITY]");
-  verb->add_option("--emotions", options.emotions,
-                   "Emotion track: a text file of lines START END EMOTION")
-      ->type_name("TRACK");
-  verb->add_option("--constraints", options.constraints,
-                   "Constraint file: which nodes to use or to avoid, and where")
-      ->type_name("FILE");
-  add_cost(verb, words);
-  add_weights(verb, options);
+  add_transcript_options(verb, words);
   add_blend(verb, options);
-  verb->add_option("--phoneme-set", options.phoneme_set,
-                   "The transcript's alphabet: festival_us, arpabet, timit or a .json file "
-                   "(default: the first that knows every symbol)")
-      ->type_name("SET");
-  verb->add_option("--tier", options.tier, "The phone tier of a TextGrid (default: found by name)")
-      ->type_name("NAME");
   verb->add_option("--audio", options.audio, "Sound for the player")->type_name("WAV");
   verb->add_option("--face", options.face,
                    "Mesh (.obj, .glb) or the folder with it; needed for .glb and .html")
@@ -45,13 +28,36 @@ void add_synth_options(CLI::App* verb, CallWords& words) {
                    "(default: the head rests)")
       ->type_name("YAW,PITCH,ROLL[,X,Y,Z]");
   add_joins(verb, options, words);
-  verb->add_option("--runners-up", options.runners_up, "Runners-up for each phoneme, 0 to 100")
+  verb->add_option("--runners-up", options.runners_up,
+                   "Runners-up for each phoneme in .json and .txt, 0 to 100")
       ->type_name("N")
       ->capture_default_str();
   add_threads(verb, options);
 }
 
 } // namespace
+
+void add_transcript_options(CLI::App* verb, CallWords& words) {
+  SynthOptions& options = words.synth.options;
+  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
+      ->type_name("NAME");
+  verb->add_option("--emotion", options.emotion, "One emotion throughout (default: neutral)")
+      ->type_name("NAME[:INTENSITY]");
+  verb->add_option("--emotions", options.emotions,
+                   "Emotion track: a text file of lines START END EMOTION")
+      ->type_name("TRACK");
+  verb->add_option("--constraints", options.constraints,
+                   "Constraint file: which nodes to use or to avoid, and where")
+      ->type_name("FILE");
+  add_cost(verb, words);
+  add_weights(verb, options);
+  verb->add_option("--phoneme-set", options.phoneme_set,
+                   "The transcript's alphabet: festival_us, arpabet, timit or a .json file "
+                   "(default: the first that knows every symbol)")
+      ->type_name("SET");
+  verb->add_option("--tier", options.tier, "The phone tier of a TextGrid (default: found by name)")
+      ->type_name("NAME");
+}
 
 void add_weights(CLI::App* verb, SynthOptions& options) {
   verb->add_option("--weights", options.weights, "Cost weights of the search (JSON)")

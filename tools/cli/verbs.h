@@ -24,6 +24,18 @@ void run_verb(const EvaluateArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 void run_verb(const TuneArguments& arguments, const CommonArguments& common,
               const Progress& progress);
+void run_verb(const MapBuildArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const MapShowArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const MapImageArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const MapPickArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const MapQualityArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const RecommendArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
 void run_verb(const ExplainArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 

@@ -5,6 +5,8 @@
 #include "db/types/text.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <numbers>
 #include <span>
 #include <string_view>
@@ -81,9 +83,55 @@ std::optional<Scale> parse_scale(const std::string& text) {
   return parse_choice<Scale>("--scale", "there is no such scale", text, kScaleNames);
 }
 
-void check_verb(std::span<const char* const> call, const std::vector<std::string>& verbs) {
+DisconnectedParts parse_components(const std::string& text) {
+  constexpr std::array<std::string_view, 2> kNames = {"join", "largest"};
+  return parse_choice<DisconnectedParts>("--components", "there is no such way with parts", text,
+                                         kNames);
+}
+
+bool parse_map_kind(const std::string& text) {
+  constexpr std::array<std::string_view, 2> kNames = {"isomap", "pca"};
+  return parse_choice<bool>("--map", "there is no such map", text, kNames);
+}
+
+std::pair<int, int> parse_size(const std::string& text) {
+  const std::vector<std::string_view> sides = split_fields(text, 'x');
+  const std::optional<long> width = parse_integer(sides.front());
+  const std::optional<long> height = parse_integer(sides.back());
+  constexpr long kMost = 1'000'000; // the picture itself says what it takes
+  if (sides.size() != 2 || !width || !height || std::abs(*width) > kMost ||
+      std::abs(*height) > kMost) {
+    throw UsageError({.where = "--size",
+                      .what = "is not the size of a picture",
+                      .expected = "WIDTHxHEIGHT in pixels, as 1000x800",
+                      .got = quoted(text)});
+  }
+  return {static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+std::map<std::string, Colour> parse_palette(const std::vector<std::string>& texts) {
+  std::map<std::string, Colour> palette;
+  for (const std::string& text : texts) {
+    const std::size_t sign = text.find('=');
+    try {
+      if (sign == std::string::npos || sign == 0) {
+        throw UsageError({.where = "--palette",
+                          .what = "names no emotion and its colour",
+                          .expected = "EMOTION=#rrggbb",
+                          .got = quoted(text)});
+      }
+      palette[text.substr(0, sign)] = parse_colour(text.substr(sign + 1), "--palette");
+    } catch (const InputError& error) {
+      throw UsageError(error.details()); // a word of the call, not of a file
+    }
+  }
+  return palette;
+}
+
+void check_verb(std::span<const char* const> call, const std::vector<std::string>& verbs,
+                const std::string& program) {
   const std::string expected = fmt::format("one of {}", fmt::join(verbs, ", "));
-  const std::string see = "See `phonomime --help`.";
+  const std::string see = "See `" + program + " --help`.";
   if (call.empty()) {
     throw UsageError({.what = "the call names no verb", .expected = expected, .remedy = see});
   }

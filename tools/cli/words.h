@@ -2,11 +2,14 @@
 #pragma once
 
 #include "db/types/layout.h"
+#include "tools/app/map_image.h"
 #include "tools/app/synth.h"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace phonomime {
@@ -26,9 +29,22 @@ std::optional<CostModel> parse_cost(const std::string& text);
 // "measured" or "nominal"; nothing for "".
 std::optional<Scale> parse_scale(const std::string& text);
 
-// The first word of `call` that is no option has to be one of the verbs; a call without any word is
-// refused too.
-void check_verb(std::span<const char* const> call, const std::vector<std::string>& verbs);
+// "join" or "largest".
+DisconnectedParts parse_components(const std::string& text);
+
+// Whether it is the PCA map: "isomap" or "pca".
+bool parse_map_kind(const std::string& text);
+
+// "WIDTHxHEIGHT".
+std::pair<int, int> parse_size(const std::string& text);
+
+// Each "EMOTION=#rrggbb".
+std::map<std::string, Colour> parse_palette(const std::vector<std::string>& texts);
+
+// The first word of `call` that is no option has to be one of the verbs of `program`; a call
+// without any word is refused too.
+void check_verb(std::span<const char* const> call, const std::vector<std::string>& verbs,
+                const std::string& program);
 
 // Of `nodes --limit`.
 void check_limit(long limit);
