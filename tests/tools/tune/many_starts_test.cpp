@@ -51,7 +51,7 @@ Objective rugged(double at) {
   return [at](std::span<const double> point) {
     double sum = 0.0;
     for (const double x : point) {
-      sum += 25.0 * (x - at) * (x - at) + 0.5 * (1.0 - std::cos(10.0 * kPi * (x - at)));
+      sum += 4.0 * (x - at) * (x - at) + 1.0 - std::cos(10.0 * kPi * (x - at));
     }
     return std::optional(sum);
   };
@@ -126,7 +126,7 @@ TEST(ManyStarts, FindTheLowestOfManyValleysWhereOneDescentDoesNot) {
   };
   const Look alone = best({.starts = 0, .descents = 1, .evaluations = 80});
   const Look many = best({.starts = 60, .descents = 6, .evaluations = 80});
-  EXPECT_GT(alone.value, 0.5);
+  EXPECT_GT(alone.value, 0.1);
   EXPECT_LT(many.value, 0.01);
   EXPECT_NEAR(many.point[0], 0.81, 0.02);
   EXPECT_NEAR(many.point[1], 0.81, 0.02);
