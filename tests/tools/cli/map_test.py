@@ -208,9 +208,9 @@ class MapTest(cli.DatabaseTest):
             of_frame = {(key, frame): i for i, (key, frame, _) in enumerate(frames)}
             pick = random.Random(3)
             inside = 0
-            reach = [max(abs(place[axis]) for place in places) for axis in (0, 1)]
-            for _ in range(25):
-                x, y = (pick.uniform(-0.8 * r, 0.8 * r) for r in reach)
+            for _ in range(25):  # on the line through two frames, between them or beyond
+                (ax, ay), (bx, by), share = *pick.sample(places, 2), pick.uniform(-0.7, 1.7)
+                x, y = ax + share * (bx - ax), ay + share * (by - ay)
                 picked = cli.run_json("map", "pick", self.database, phoneme, x, y, "--map", kind)
                 with self.subTest(phoneme, x=x, y=y):
                     inside += picked["inside"]
