@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/style/style_model.h"
+
+#include "db/types/errors.h"
+#include "db/types/parallel_for.h"
+#include "synth/style/mixture.h"
+#include "synth/style/restyler.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace phonomime {
+
+namespace {
+
+void check_range(const char* what, bool inside, const char* expected, const std::string& got) {
+  if (!inside) {
+    throw UsageError({.what = what, .expected = expected, .got = got});
+  }
+}
+
+ChosenDimensions choose(std::span<const StackSummary> parts, const FrameVectors& vectors,
+                        const StyleOptions& options) {
+  ChoiceOptions tried{.first_row = vectors.middle_row(),
+                      .row_count = vectors.dimension_count(),
+                      .threads = options.threads};
+  if (options.content_size) {
+    tried.content_sizes = {*options.content_size};
+  }
+  if (options.ridge) {
+    tried.ridges = {*options.ridge};
+  }
+  return choose_dimensions(parts, tried);
+}
+
+void warn_of_range(const StyleModel& model, const Eigen::MatrixXd& wanted,
+                   std::vector<std::string>& warnings) {
+  for (const ValidRange& range : model.valid) {
+    const Eigen::Index style = find_style(model.known.styles, range.emotion);
+    const double most = wanted.cols() > 0 ? wanted.row(style).maxCoeff() : 0.0;
+    if (most > range.largest_intensity + 1e-9) {
+      warnings.push_back(fmt::format("{} at intensity {:.2f} leaves the recorded faces, which it "
+                                     "does from {:.2f} on",
+                                     range.emotion, most, range.largest_intensity));
+    }
+  }
+}
+
+} // namespace
+
+void StyleOptions::validate() const {
+  check_range("the number of frames in a bundle is out of range", bundle >= 1 && bundle % 2 == 1,
+              "an odd number from 1 on", std::to_string(bundle));
+  check_range("the number of content dimensions is out of range",
+              !content_size || *content_size >= 1, "1 or more",
+              content_size ? std::to_string(*content_size) : "");
+  check_range("the ridge is out of range", !ridge || *ridge >= 0.0, "0 or more",
+              ridge ? fmt::format("{}", *ridge) : "");
+  check_range("the number of parts of a cross-validation is out of range", training.parts >= 2,
+              "2 or more", std::to_string(training.parts));
+}
+
+TrainedStyle train_style(const MotionTable& table, const StyleOptions& options) {
+  options.validate();
+  const FrameVectors vectors(table.pca, options.bundle);
+  StyleTraining training = gather_styles(table, vectors, options.training);
+  TrainedStyle trained{.sentences = std::move(training.sentences),
+                       .nodes = training.nodes,
+                       .nodes_left_out = training.nodes_left_out,
+                       .not_aligned = std::move(training.not_aligned)};
+  std::vector<StackSummary> parts(training.parts.size());
+  parallel_for(static_cast<std::ptrdiff_t>(parts.size()), options.threads, [&](std::ptrdiff_t i) {
+    const auto part = static_cast<std::size_t>(i);
+    parts[part] = summarise(training.parts[part]);
+  });
+  std::vector<const StackSummary*> all;
+  for (const StackSummary& part : parts) {
+    all.push_back(&part);
+    trained.columns += static_cast<std::int64_t>(part.content_count);
+  }
+  const StackSummary whole = merge_summaries(all);
+  Eigen::Index content_size = options.content_size.value_or(0);
+  StyleModel& model = trained.model;
+  model.neutral = options.training.reference;
+  model.bundle = options.bundle;
+  model.ridge = options.ridge.value_or(0.0);
+  if (!options.content_size || !options.ridge) {
+    trained.chosen = choose(parts, vectors, options);
+    content_size = trained.chosen->best.content_size;
+    model.ridge = trained.chosen->best.ridge;
+  }
+  model.known = fit_asymmetric(whole, content_size);
+  const Eigen::Index style_size = options.style_size > 0 ? options.style_size : whole.style_count();
+  model.unknown = fit_symmetric(
+      whole, {.style_size = style_size,
+              .content_size = std::min({options.unknown_content_size, whole.factor.cols(),
+                                        style_size * whole.vector_size})});
+  if (const auto aperture = CoefficientAperture::of(table.layout, table.pca)) {
+    model.contacts = recorded_contacts(table, *aperture);
+  }
+  model.valid = valid_ranges(table, Restyler(model.known, vectors, model.ridge), model.known.styles,
+                             model.neutral);
+  return trained;
+}
+
+StyledMotion apply_style(const StyleModel& model, const Layout& layout, const PcaModel& pca,
+                         const StyleRequest& request) {
+  const FrameVectors vectors(pca, model.bundle);
+  const Restyler restyler(model.known, vectors, model.ridge);
+  const Eigen::MatrixXd shown = glide(request.shown, request.rate_hz, request.glide_s);
+  const Eigen::MatrixXd wanted = glide(request.wanted, request.rate_hz, request.glide_s);
+  StyledMotion styled;
+  warn_of_range(model, wanted, styled.warnings);
+  styled.coefficients = restyler.restyle(request.coefficients, shown, wanted);
+  const auto aperture = CoefficientAperture::of(layout, pca);
+  if (aperture && styled.coefficients != request.coefficients) {
+    const std::vector<Contact> contacts =
+        contacts_to_hold(request.phonemes, model.contacts, *aperture, request.coefficients);
+    HeldContacts held =
+        hold_contacts(styled.coefficients, request.rate_hz, contacts, *aperture, pca.variance);
+    styled.coefficients = std::move(held.coefficients);
+    styled.contacts = static_cast<int>(contacts.size());
+    styled.contacts_moved = held.moved;
+    styled.contacts_left = held.left;
+    if (held.left > 0) {
+      styled.warnings.push_back(fmt::format("{} of {} contacts of the lips could not be kept",
+                                            held.left, contacts.size()));
+    }
+  }
+  return styled;
+}
+
+} // namespace phonomime

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/motion_table.h"
+#include "synth/style/bilinear_model.h"
+#include "synth/style/choose_dimensions.h"
+#include "synth/style/contacts.h"
+#include "synth/style/style_training.h"
+#include "synth/style/valid_range.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace phonomime {
+
+struct StyleOptions {
+  TrainingOptions training;
+  int bundle = 3;                           // frames, odd (T2.14)
+  std::optional<Eigen::Index> content_size; // J of known styles; empty: by cross-validation
+  std::optional<double> ridge;              // likewise; a variance
+  Eigen::Index style_size = 0;              // I of unknown styles; 0: as many as there are styles
+  Eigen::Index unknown_content_size = 10;   // J of unknown styles (T: 8 to 10)
+  int threads = 0;                          // 0: as many as there are
+
+  // Throws UsageError, which says what is out of range.
+  void validate() const;
+};
+
+// All that a change of style needs, learned from one speaker's recordings.
+struct StyleModel {
+  std::string neutral; // the style that intensity 0 is
+  int bundle = 3;
+  double ridge = 0.0;
+  AsymmetricModel known;         // for motion whose style is known
+  SymmetricModel unknown;        // for motion whose style has to be found
+  ContactRanges contacts;        // empty where the layout cannot say
+  std::vector<ValidRange> valid; // of each style but neutral
+};
+
+struct TrainedStyle {
+  StyleModel model;
+  std::optional<ChosenDimensions> chosen; // where there was something to choose
+  // Of what was trained on, without the columns.
+  std::vector<std::string> sentences;
+  std::int64_t nodes = 0, nodes_left_out = 0, columns = 0;
+  std::vector<NotAligned> not_aligned;
+};
+
+// Throws UsageError and InputError (gather_styles, summarise, the fits).
+TrainedStyle train_style(const MotionTable& table, const StyleOptions& options);
+
+// Motion that is to show another style.
+struct StyleRequest {
+  FrameMatrixD coefficients; // #frames by #dimensions
+  double rate_hz = 0.0;
+  std::vector<PhonemeFrames> phonemes; // for the contacts; may be empty
+  // S by #frames in the order of the model's styles: what each frame shows and is to show
+  // (mixture_weights); a column sums to 1.
+  Eigen::MatrixXd shown, wanted;
+  double glide_s = 0.3; // over which a change of style is spread
+};
+
+struct StyledMotion {
+  FrameMatrixD coefficients; // #frames by #dimensions
+  int contacts = 0;          // phonemes that ask for contact
+  int contacts_moved = 0;    // of them, those that the new style would have taken from their range
+  int contacts_left = 0;     // of those, the ones that stayed outside
+  std::vector<std::string> warnings;
+};
+
+// Glide, Restyler, hold_contacts, and a warning for each emotion beyond its valid range. `layout`
+// and `pca` are those of the motion. Throws InputError where the model was trained on motion of
+// another size; then nothing is changed.
+StyledMotion apply_style(const StyleModel& model, const Layout& layout, const PcaModel& pca,
+                         const StyleRequest& request);
+
+} // namespace phonomime

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/style/style_training.h"
+
+#include "synth/style/align_phonemes.h"
+#include "tests/support/expect_error.h"
+#include "tests/synth/style/made_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace phonomime::test {
+
+namespace {
+
+std::size_t edit_distance(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
+  if (a.empty() || b.empty()) {
+    return a.size() + b.size();
+  }
+  const std::size_t last =
+      edit_distance(a.first(a.size() - 1), b.first(b.size() - 1)) + (a.back() == b.back() ? 0 : 1);
+  return std::min({last, edit_distance(a.first(a.size() - 1), b) + 1,
+                   edit_distance(a, b.first(b.size() - 1)) + 1});
+}
+
+} // namespace
+
+TEST(FrameVectors, LieAsTheChannelsLie) {
+  const PcaModel pca = made_pca();
+  const FrameVectors vectors(pca, 1);
+  const Eigen::Vector2d first(0.3, -2.0), second(1.5, 0.25);
+  Eigen::VectorXd a(3), b(3);
+  vectors.write_frame(first, a);
+  vectors.write_frame(second, b);
+  const Eigen::VectorXd x = pca.reconstruct(first), y = pca.reconstruct(second);
+  EXPECT_NEAR(a.norm(), x.norm(), 1e-12);
+  EXPECT_NEAR((a - b).norm(), (x - y).norm(), 1e-12);
+  EXPECT_NEAR(a.dot(b), x.dot(y), 1e-11);
+}
+
+TEST(FrameVectors, BundleNeighboursAndGiveTheMiddleBack) {
+  const FrameVectors vectors(made_pca(), 3);
+  const FrameMatrixD frames = MadeNumbers(9).matrix(5, 2);
+  const Eigen::MatrixXd bundles = vectors.bundles(frames);
+  ASSERT_EQ(bundles.rows(), 9);
+  Eigen::VectorXd vector(3);
+  for (Eigen::Index t = 0; t < 5; ++t) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Eigen::Index frame = std::max<Eigen::Index>(0, std::min<Eigen::Index>(4, t + k - 1));
+      vectors.write_frame(frames.row(frame).transpose(), vector);
+      EXPECT_EQ(bundles.col(t).segment(3 * k, 3), vector);
+    }
+  }
+  const FrameMatrixD back =
+      vectors.coefficients(bundles.middleRows(vectors.middle_row(), vectors.frame_size()));
+  EXPECT_LT((back - frames).norm(), 1e-13);
+  expect_error([] { FrameVectors(made_pca(), 2); }, "has no middle (expected an odd number");
+}
+
+TEST(AlignPhonemes, PairsEqualPhonemesAtLeastEditDistance) {
+  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+  const std::vector<std::int32_t> word = {1, 2, 3, 4}, other = {1, 5, 3, 3, 4};
+  EXPECT_EQ(align_phonemes(word, word), (Pairs{{0, 0}, {1, 1}, {2, 2}, {3, 3}}));
+  EXPECT_EQ(align_phonemes(word, other), (Pairs{{0, 0}, {2, 3}, {3, 4}}));
+  EXPECT_EQ(align_phonemes(word, {}), Pairs{});
+  MadeNumbers numbers(4);
+  for (int round = 0; round < 60; ++round) {
+    const auto draw = [&] {
+      std::vector<std::int32_t> made(static_cast<std::size_t>(3.5 * (numbers.next() + 1.0)));
+      for (std::int32_t& phoneme : made) {
+        phoneme = static_cast<std::int32_t>(1.5 * (numbers.next() + 1.0));
+      }
+      return made;
+    };
+    const std::vector<std::int32_t> a = draw(), b = draw();
+    const Pairs pairs = align_phonemes(a, b);
+    // Between two pairs, exchanges and then insertions or deletions make up the rest.
+    std::size_t cost = 0, i = 0, j = 0;
+    for (std::size_t p = 0; p <= pairs.size(); ++p) {
+      const auto [to_i, to_j] =
+          p < pairs.size() ? pairs[p] : std::pair<std::size_t, std::size_t>{a.size(), b.size()};
+      ASSERT_LE(i, to_i);
+      ASSERT_LE(j, to_j);
+      cost += std::max(to_i - i, to_j - j);
+      if (p < pairs.size()) {
+        EXPECT_EQ(a[to_i], b[to_j]);
+        i = to_i + 1, j = to_j + 1;
+      }
+    }
+    EXPECT_EQ(cost, edit_distance(a, b));
+  }
+}
+
+TEST(StyleTraining, AlignsLinearlyInsidePhonemesAtTheStylesOwnTempo) {
+  MadeTable made;
+  made.say("s1", "anger", {{"a", 7}, {"b", 1}, {"c", 3}});
+  made.say("s1", "neutral", {{"a", 4}, {"b", 3}, {"c", 1}});
+  const FrameVectors vectors(made.table.pca, 3);
+  const StyleTraining training = gather_styles(made.table, vectors, {.parts = 1});
+  EXPECT_EQ(training.styles, (std::vector<std::string>{"neutral", "anger"}));
+  EXPECT_EQ(training.nodes, 3);
+  EXPECT_TRUE(training.not_aligned.empty());
+  ASSERT_EQ(training.parts.size(), 1U);
+  const StyleStack& stack = training.parts[0];
+  ASSERT_EQ(stack.columns.cols(), 8); // the reference's frames
+  const auto frame = [&](Eigen::Index style, Eigen::Index place, Eigen::Index column) {
+    return vectors.coefficients(stack.columns.col(column).segment(9 * style + 3 * place, 3));
+  };
+  for (Eigen::Index t = 0; t < 8; ++t) {
+    EXPECT_NEAR(frame(0, 1, t)(0, 1), 1.0, 1e-12); // neutral is emotion 1
+    EXPECT_NEAR(frame(1, 1, t)(0, 1), 0.0, 1e-12);
+  }
+  for (Eigen::Index t = 0; t < 4; ++t) { // a: 4 frames onto 7
+    EXPECT_NEAR(frame(0, 1, t)(0, 0), 10.0 + static_cast<double>(t) / 3.0, 1e-6);
+    EXPECT_NEAR(frame(1, 1, t)(0, 0), 10.0 + static_cast<double>(t) / 3.0, 1e-6);
+  }
+  // A sixth of the way is a frame in anger, a third in neutral.
+  EXPECT_NEAR(frame(1, 2, 1)(0, 0), 10.0 + 3.0 / 6.0, 1e-6);
+  EXPECT_NEAR(frame(0, 2, 1)(0, 0), 10.0 + 2.0 / 3.0, 1e-6);
+  EXPECT_NEAR(frame(1, 0, 1)(0, 0), 10.0 + 1.0 / 6.0, 1e-6);
+  EXPECT_NEAR(frame(1, 0, 0)(0, 0), 10.0, 1e-6);       // repeated at the start
+  EXPECT_NEAR(frame(1, 1, 5)(0, 0), 20.5, 1e-6);       // b: the one frame
+  EXPECT_NEAR(frame(1, 1, 7)(0, 0), 30.0 + 0.5, 1e-6); // c: the middle, for a reference of one
+}
+
+TEST(StyleTraining, SaysWhatItCouldNotAlign) {
+  MadeTable made;
+  made.say("s1", "anger", {{"a", 3}, {"c", 2}});
+  made.say("s1", "neutral", {{"a", 3}, {"b", 4}, {"c", 2}});
+  made.say("s2", "neutral", {{"a", 3}});
+  made.say("s3", "anger", {{"b", 3}});
+  made.say("s3", "neutral", {{"b", 2}});
+  const StyleTraining training =
+      gather_styles(made.table, FrameVectors(made.table.pca, 3), {.parts = 5});
+  EXPECT_EQ(training.sentences, (std::vector<std::string>{"s1", "s3"}));
+  EXPECT_EQ(training.nodes, 3);
+  EXPECT_EQ(training.nodes_left_out, 1);
+  ASSERT_EQ(training.not_aligned.size(), 2U);
+  EXPECT_EQ(training.not_aligned[0].reason, "1 of its 3 phonemes are not said in every style");
+  EXPECT_EQ(training.not_aligned[1].sentence, "s2");
+  EXPECT_EQ(training.not_aligned[1].reason, "there is no recording of it in anger");
+  ASSERT_EQ(training.parts.size(), 2U); // as many as there are sentences
+  EXPECT_EQ(training.parts[0].columns.cols(), 5);
+  EXPECT_EQ(training.parts[1].columns.cols(), 2);
+}
+
+TEST(StyleTraining, RefusesWhatIsNotThere) {
+  MadeTable made;
+  made.say("s1", "anger", {{"a", 3}});
+  const FrameVectors vectors(made.table.pca, 3);
+  expect_error(
+      [&] {
+        gather_styles(made.table, vectors, {.styles = {"neutral", "boredom"}});
+      },
+      "no recording of the emotion boredom (expected anger, neutral, joy)");
+  expect_error([&] { gather_styles(made.table, vectors, {}); },
+               "gives the timing is none of the styles (expected anger, got neutral)");
+  expect_error([&] { gather_styles(made.table, vectors, {.reference = "anger"}); },
+               "several styles (expected at least 2, got anger)");
+  expect_error(
+      [&] {
+        gather_styles(made.table, vectors, {.styles = {"anger", "neutral"}});
+      },
+      "no speech that was recorded in every style");
+}
+
+} // namespace phonomime::test
