@@ -187,7 +187,9 @@ std::optional<PhonemeMaps> maps_if_fresh(const MotionDatabase& database, const M
 
 std::vector<BuiltMap> build_phoneme_maps(const MapBuildOptions& options, const Progress& progress) {
   check_range("--threads", options.isomap.threads, 0, 256);
-  options.isomap.validate();
+  check_range("--neighbours", options.isomap.neighbours, 1, 1000);
+  check_range("--largest-exact", options.isomap.largest_exact, 1, 100'000);
+  check_range("--landmarks", options.isomap.landmarks, 3, 100'000);
   // Read first: what is opened for writing is made where it is not there.
   const MotionTable table = MotionDatabase::open(options.database, OpenMode::read_only)
                                 .load_motion_table(options.speaker);

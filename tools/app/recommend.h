@@ -43,7 +43,7 @@ struct RecommendReport {
   std::string emotion; // asked for
   double relative_time = 0.0;
   double cost = 0.0;                // of the best path
-  std::int64_t context_correct = 0; // nodes there are
+  std::int64_t context_correct = 0; // nodes that may be used
   std::vector<Recommendation> recommended;
   std::vector<std::string> notes, warnings;
 };

@@ -3,6 +3,7 @@
 import random
 import shutil
 import struct
+import subprocess
 import xml.etree.ElementTree
 
 import map_database
@@ -123,6 +124,27 @@ class MapTest(cli.DatabaseTest):
         self.assertEqual(shown.returncode, cli.DONE, shown.stderr)
         cli.run_well("map", "pick", self.database, "aa", 0, 0, as_user=True)
         self.assertRefused(cli.IO, [self.database], "map", "build", self.database, as_user=True)
+
+    def test_a_disk_without_room(self):
+        room = self.database.stat().st_size
+        stopped = cli.run("map", "build", self.database, "--threads", 1, preexec_fn=cli.limit_file_size(room))
+        self.assertEqual(stopped.returncode, cli.IO, stopped.stderr)
+        self.assertEqual(stopped.stderr.count("\n"), 1, stopped.stderr)
+        self.assertIn(str(self.database), stopped.stderr)
+        kept = set(map_database.maps(self.database))
+        self.assertEqual({name for name, state in self.states().items() if state == "fresh"}, kept)
+        self.assertEqual({entry["phoneme"] for entry in self.build() if not entry["built"]}, kept)
+
+    def test_two_builds_at_once(self):
+        self.build()
+        alone = map_database.maps(self.database)
+        self.database.write_bytes(self.made)
+        command = [cli.PROGRAM, "map", "build", self.database, "--quiet"]
+        both = [subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(2)]
+        for process in both:
+            _, said = process.communicate(timeout=cli.TIME_LIMIT_S)
+            self.assertEqual(process.returncode, cli.DONE, said)
+        self.assertEqual(map_database.maps(self.database), alone)
 
     # Fresh and stale
 
@@ -361,6 +383,9 @@ class BadMapCallTest(cli.DatabaseTest):
             (["map", "build", db, "--threads", "-1"], ("--threads", "0 to 256")),
             (["map", "build", db, "--components", "all"], ("--components", "join, largest", '"all"')),
             (["map", "build", db, "--neighbours", "many"], ("--neighbours",)),
+            (["map", "build", db, "--neighbours", "0"], ("--neighbours", "1 to 1000")),
+            (["map", "build", db, "--landmarks", "2"], ("--landmarks", "3 to 100000")),
+            (["map", "build", db, "--largest-exact", "0"], ("--largest-exact", "1 to 100000")),
             (["map", "image", db, "aa"], ("--output",)),
             (["map", "image", db, "aa", "-o", self.folder / "new.gif"], ("new.gif", ".png or .svg")),
             ([*image, "-o", new, new], ("twice",)),
@@ -392,9 +417,6 @@ class BadMapCallTest(cli.DatabaseTest):
         no_result.write_text("{}")
         other = next(node["key"] for node in cli.run_json("nodes", db, "--phoneme", "b"))
         cases = [
-            (["map", "build", db, "--neighbours", "0"], ("neighbours", "at least 1")),
-            (["map", "build", db, "--landmarks", "2"], ("landmarks", "at least 3")),
-            (["map", "build", db, "--largest-exact", "0"], ("largest_exact", "at least 1")),
             (["map", "build", db, "--phoneme", "ahh"], ('"ahh"', "one of aa")),
             (["map", "build", db, "--speaker", "bob"], ('"bob"', "ann")),
             (["map", "show", db, "pau"], ('"pau"',)),
