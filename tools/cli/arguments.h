@@ -69,9 +69,9 @@ struct PrintArguments {
 struct Arguments {
   CommonArguments common;
   std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SynthArguments,
-               StreamArguments, MapBuildArguments, MapShowArguments,
-               MapImageArguments, MapPickArguments, MapQualityArguments, RecommendArguments,
-               BatchArguments, EvaluateArguments, TuneArguments, ExplainArguments>
+               StreamArguments, MapBuildArguments, MapShowArguments, MapImageArguments,
+               MapPickArguments, MapQualityArguments, RecommendArguments, BatchArguments,
+               EvaluateArguments, TuneArguments, ExplainArguments>
       verb;
 };
 
