@@ -3,6 +3,7 @@
 
 #include "db/import/nodes.h"
 #include "db/import/readers.h"
+#include "db/import/recorded_faults.h"
 #include "db/types/errors.h"
 #include "db/types/frame_times.h"
 #include "db/types/parallel_for.h"
@@ -97,11 +98,7 @@ PreparedSentence prepare(std::size_t index, RecordedSentence& recorded,
   spread_gaps_over_nodes(made);
 
   SentenceAccount& account = result.account;
-  const FrameMatrixD speeds = group_speeds(still.local, width, recorded_hz);
-  account.suspects = mark_suspects(
-      made.nodes,
-      {.recorded = &recorded, .speeds = &speeds, .gaps = &filled.gaps, .rate_hz = context.rate_hz},
-      context.limits, context.corpus.layout);
+  mark_recorded_faults(made.nodes, recorded, filled.gaps, context.corpus.layout, context.rate_hz);
   account.sentence = index;
   account.clock = recorded.clock;
   account.recorded_frames = recorded.frames.rows();

@@ -5,11 +5,9 @@
 #include "db/import/gaps.h"
 #include "db/import/recording.h"
 #include "db/import/survey.h"
-#include "db/import/suspect.h"
 #include "db/types/imported_sentence.h"
 #include "db/types/progress.h"
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -32,7 +30,6 @@ struct SentenceAccount {
   std::int64_t missing = 0;            // group-frames that the recording lacks
   std::int64_t interpolated_poses = 0; // frames whose head pose is from their neighbours
   std::vector<Gap> gaps;
-  std::array<std::int64_t, kSuspectReasonNames.size()> suspects{}; // nodes by reason
 };
 
 struct PreparedSentence {
@@ -50,14 +47,14 @@ struct PreparedRecording {
 struct PrepareContext {
   const Corpus& corpus;
   const Survey& survey;
-  const SuspectLimits& limits;
   const RecordingOptions& options;
   double rate_hz = 0.0; // of the database
 };
 
 // Reads one motion file and prepares each of its sentences: head motion off, gaps filled or marked
 // (without head motion, so that a filled marker follows the face), resampled, cut into nodes,
-// marked where suspect. Throws InputError (unless faulty sentences are to be skipped) and IoError.
+// marked where the recording itself shows a fault (recorded_faults.h). Throws InputError (unless
+// faulty sentences are to be skipped) and IoError.
 PreparedRecording prepare_recording(const Recording& recording, const PrepareContext& context);
 
 // Each recording of the survey, a few at a time over threads: calls take(a few of them) in order.

@@ -35,7 +35,7 @@ ImportReport begin_report(const Corpus& corpus, const Survey& survey, double rat
   report.frames_outside = survey.frames_outside;
   report.frames_shared = survey.frames_shared;
   report.extra_groups = survey.extra_groups;
-  for (const std::string_view reason : kSuspectReasonNames) {
+  for (const std::string_view reason : kSuspectReasons) {
     report.suspects[std::string(reason)] = 0;
   }
   for (const auto& [speaker, reference] : survey.references) {
@@ -98,9 +98,6 @@ void add_to_report(ImportReport& report, const Corpus& corpus, const SentenceAcc
          .frames = count,
          .action = action,
          .groups = std::move(groups)});
-  }
-  for (std::size_t reason = 0; reason < account.suspects.size(); ++reason) {
-    report.suspects[std::string(kSuspectReasonNames[reason])] += account.suspects[reason];
   }
 }
 

@@ -45,7 +45,6 @@ struct FileFindings {
   std::int64_t frames_outside = 0;
   std::int64_t frames_shared = 0;
   std::vector<std::string> extra_groups;
-  UsualMotion usual;
   std::map<std::string, HeadSizes> sizes;       // by speaker
   std::map<std::string, Candidates> candidates; // by speaker
   std::vector<std::size_t> good;                // sentences
@@ -60,38 +59,6 @@ struct SurveyContext {
   std::set<std::string> neutral_speakers; // that have neutral sentences
   std::set<std::string> settled_speakers; // that need no candidates
 };
-
-// Head-still speeds of a sentence by a reference of its own: its first frame that shows the anchor.
-void add_speeds(const RecordedSentence& recorded, const SurveyContext& context,
-                UsualMotion& usual) {
-  const int width = context.corpus.layout.channels_per_group();
-  const FrameMatrixD* still = &recorded.frames;
-  HeadFree free;
-  if (context.anchor) {
-    Eigen::Index first = 0;
-    while (first < recorded.frames.rows() &&
-           !anchor_is_whole(recorded.frames.row(first).transpose(), *context.anchor)) {
-      ++first;
-    }
-    if (first == recorded.frames.rows()) {
-      return;
-    }
-    free = remove_head(recorded.frames, *context.anchor,
-                       centred_on_anchor(recorded.frames.row(first).transpose(), *context.anchor),
-                       Scale::measured);
-    if (!free.found) {
-      return;
-    }
-    still = &free.local;
-  }
-  const FrameMatrixD speeds = group_speeds(*still, width, recorded.clock.rate_hz);
-  usual.speeds.resize(static_cast<std::size_t>(speeds.cols()));
-  for (Eigen::Index k = 0; k < speeds.rows(); ++k) {
-    for (Eigen::Index group = 0; group < speeds.cols(); ++group) {
-      usual.speeds[static_cast<std::size_t>(group)].add(speeds(k, group));
-    }
-  }
-}
 
 void add_candidates(const RecordedSentence& recorded, std::size_t index,
                     const SurveyContext& context, std::map<std::string, Candidates>& candidates) {
@@ -145,14 +112,8 @@ void look_at_sentence(std::size_t index, const LayoutMotion& motion, const Surve
       cut_sentence(motion, read_alignment(sentence.alignment, context.corpus.alignment_options),
                    sentence, context.corpus, context.options.tolerance_s);
   add_candidates(recorded, index, context, findings.candidates);
-  add_speeds(recorded, context, findings.usual);
   if (context.anchor && context.anchor->gives_rotation) {
     findings.sizes[sentence.speaker].add(recorded.frames, *context.anchor);
-  }
-  for (const TimedPhoneme& row : recorded.rows) {
-    if (!row.is_silence()) {
-      findings.usual.durations[row.phoneme.name].add(row.end_s - row.start_s);
-    }
   }
   for (Eigen::Index k = 0; k < recorded.frames.rows(); ++k) {
     std::uint8_t& used = frame_use[static_cast<std::size_t>(recorded.first_frame + k)];
@@ -205,7 +166,6 @@ void gather(FileFindings&& findings, const Recording& recording, Survey& survey,
   survey.file_frames += findings.frames;
   survey.frames_outside += findings.frames_outside;
   survey.frames_shared += findings.frames_shared;
-  survey.usual.add(findings.usual);
   for (const std::string& group : findings.extra_groups) {
     ++survey.extra_groups[group];
   }

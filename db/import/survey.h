@@ -4,7 +4,6 @@
 #include "db/import/corpus.h"
 #include "db/import/head.h"
 #include "db/import/recording.h"
-#include "db/import/suspect.h"
 #include "db/types/progress.h"
 
 #include <cstdint>
@@ -46,7 +45,6 @@ struct Survey {
   std::vector<Recording> recordings; // without the rejected sentences
   std::vector<Rejection> rejections; // in order of sentence
   double fastest_rate_hz = 0.0;
-  UsualMotion usual;
   Scale scale = Scale::measured;
   std::string scale_origin;    // "asked for", "layout", "database", "found"; empty for weights
   double size_variation = 0.0; // of the rigid groups, relative standard deviation over frames

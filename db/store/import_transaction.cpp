@@ -5,6 +5,7 @@
 #include "db/store/insert_sentence.h"
 #include "db/store/refit.h"
 #include "db/store/store_error.h"
+#include "db/store/suspects.h"
 #include "db/store/timestamp.h"
 
 #include <SQLiteCpp/Statement.h>
@@ -110,6 +111,34 @@ void ImportTransaction::for_each_sentence(
       const FrameMatrix channels = reader.read(id);
       visit(channels, reader.frame_has_gap(channels.rows()));
     }
+  });
+}
+
+void ImportTransaction::for_each_stored_sentence(
+    const std::function<void(const StoredSentence&)>& visit) const {
+  translated(impl_->where(), [&] {
+    const store::ImportState& import = impl_->open();
+    store::for_each_stored_sentence(*import.connection, import.layout, visit);
+  });
+}
+
+void ImportTransaction::set_channel_suspects(const std::vector<NodeMarks>& marks) {
+  translated(impl_->where(),
+             [&] { store::replace_channel_suspects(*impl_->open().connection, marks); });
+}
+
+std::map<std::string, std::int64_t> ImportTransaction::count_suspects() const {
+  return translated(impl_->where(), [&] {
+    const store::ImportState& import = impl_->open();
+    SQLite::Statement select(import.connection->database(),
+                             "SELECT u.reason, count(*) FROM suspects u JOIN sentences s "
+                             "ON s.id = u.sentence_id WHERE s.corpus_id = ? GROUP BY u.reason");
+    select.bind(1, import.corpus_id);
+    std::map<std::string, std::int64_t> counts;
+    while (select.executeStep()) {
+      counts[select.getColumn(0).getString()] = select.getColumn(1).getInt64();
+    }
+    return counts;
   });
 }
 

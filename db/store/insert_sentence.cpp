@@ -3,6 +3,7 @@
 
 #include "db/store/blobs.h"
 #include "db/store/check_sentence.h"
+#include "db/store/suspects.h"
 #include "db/types/text.h"
 
 #include <SQLiteCpp/Statement.h>
@@ -51,9 +52,7 @@ void insert_nodes(ImportState& import, const ImportedSentence& sentence, std::in
       "INSERT INTO nodes (sentence_id, row, first_frame, frame_count, phoneme_id, "
       "previous_phoneme_id, next_phoneme_id, emotion_id, has_gap) VALUES (?, ?, ?, ?, ?, ?, ?, ?, "
       "?)");
-  SQLite::Statement mark(
-      import.connection->database(),
-      "INSERT OR IGNORE INTO suspect_marks (sentence_id, row, reason) VALUES (?, ?, ?)");
+  SuspectWriter marks(*import.connection);
   const auto phoneme_of_row = [&](std::int64_t row) {
     return row >= 0 && row < static_cast<std::int64_t>(sentence.rows.size())
                ? import.phoneme_id(sentence.rows[static_cast<std::size_t>(row)].phoneme)
@@ -71,12 +70,8 @@ void insert_nodes(ImportState& import, const ImportedSentence& sentence, std::in
     insert.bind(8, import.emotion_id(sentence.emotion));
     insert.bind(9, node.has_gap ? 1 : 0);
     insert.exec();
-    for (const std::string& reason : node.suspect) {
-      mark.reset();
-      mark.bind(1, id);
-      mark.bind(2, node.row);
-      mark.bind(3, reason);
-      mark.exec();
+    for (const SuspectMark& mark : node.suspect) {
+      marks.write(id, node.row, mark);
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "db/store/database_impl.h"
 #include "db/store/read_common.h"
 #include "db/store/store_error.h"
+#include "db/store/suspects.h"
 #include "db/types/text.h"
 
 #include <SQLiteCpp/Statement.h>
@@ -53,7 +54,7 @@ Conditions conditions_of(const NodeFilter& filter) {
   conditions.equal("s.name", filter.sentence);
   conditions.equal("before.name", filter.previous_phoneme);
   conditions.equal("after.name", filter.next_phoneme);
-  conditions.flag("EXISTS (SELECT 1 FROM suspect_marks m WHERE m.sentence_id = n.sentence_id AND "
+  conditions.flag("EXISTS (SELECT 1 FROM suspects m WHERE m.sentence_id = n.sentence_id AND "
                   "m.row = n.row)",
                   filter.suspect);
   conditions.flag("g.pruned_by IS NOT NULL", filter.pruned);
@@ -103,9 +104,7 @@ std::vector<NodeRecord> MotionDatabase::list_nodes(const NodeFilter& filter) con
     for (const std::string& text : conditions.texts) {
       statement.bind(++index, text);
     }
-    SQLite::Statement marks(connection.database(),
-                            "SELECT reason FROM suspect_marks WHERE sentence_id = ? AND row = ? "
-                            "ORDER BY reason");
+    store::SuspectReader marks(connection);
     std::vector<NodeRecord> records;
     while (statement.executeStep()) {
       NodeRecord& record = records.emplace_back();
@@ -125,12 +124,7 @@ std::vector<NodeRecord> MotionDatabase::list_nodes(const NodeFilter& filter) con
       record.pruned = statement.getColumn(12).getInt() != 0;
       record.pruned_reason = record.pruned ? statement.getColumn(13).getString() : "";
       record.first_frame = statement.getColumn(15).getInt64();
-      marks.reset();
-      marks.bind(1, statement.getColumn(14).getInt64());
-      marks.bind(2, row);
-      while (marks.executeStep()) {
-        record.suspect.push_back(marks.getColumn(0).getString());
-      }
+      record.suspect = marks.read(statement.getColumn(14).getInt64(), row);
     }
     return records;
   });

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "db/store/curation.h"
 #include "db/store/phoneme_maps.h"
 #include "db/types/imported_sentence.h"
 #include "db/types/layout.h"
 #include "db/types/motion_table.h"
+#include "db/types/node_marks.h"
 #include "db/types/progress.h"
+#include "db/types/stored_sentence.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,7 +76,7 @@ struct NodeRecord {
   std::int32_t frame_count = 0;
   bool pruned = false, has_gap = false;
   std::string pruned_reason;
-  std::vector<std::string> suspect;
+  std::vector<SuspectMark> suspect; // by reason
 };
 
 class ImportTransaction;
@@ -112,6 +116,24 @@ public:
   // (read_write only). Throws InternalError for parts that do not fit each other, IoError.
   void save_map(const StoredMap& map);
 
+  // Every sentence with its channels, in order of (speaker, emotion, id): what suspects are judged
+  // by. Throws InputError (damaged).
+  void for_each_stored_sentence(const std::function<void(const StoredSentence&)>& visit) const;
+
+  // Puts the marks that `judge` finds in the place of all that the channels showed before, those of
+  // the recordings stay; in one transaction, begun before it is called. Throws IoError (read-only,
+  // locked); a failure of `judge` changes nothing.
+  void
+  replace_channel_suspects(const std::function<std::vector<NodeMarks>(MotionDatabase&)>& judge);
+
+  // Prunes, restores or undoes, and writes it into the journal, all in one transaction (read_write
+  // only). The PCA stays as it is. Throws InputError (a key that is unknown or ambiguous, nothing
+  // to undo) and IoError (locked, read-only); then nothing is changed.
+  CurationOutcome curate(const CurationRequest& request);
+
+  // Every prune, restore and undo, the first one first.
+  std::vector<JournalEntry> journal() const;
+
   // Starts the one transaction in which a corpus goes in (read_write only). The layout and the rate
   // must be the database's own where it holds a corpus already: InputError.
   ImportTransaction begin_import(const Layout& layout, double rate_hz);
@@ -149,6 +171,16 @@ public:
   void for_each_sentence(
       const std::function<void(const FrameMatrix& channels,
                                const std::vector<std::uint8_t>& frame_has_gap)>& visit) const;
+
+  // As MotionDatabase::for_each_stored_sentence, those of earlier corpora too.
+  void for_each_stored_sentence(const std::function<void(const StoredSentence&)>& visit) const;
+
+  // Puts these marks in the place of all that the channels of any corpus showed before; those of
+  // the recordings stay. After the last sentence.
+  void set_channel_suspects(const std::vector<NodeMarks>& marks);
+
+  // How many of this import's nodes are marked, by reason.
+  std::map<std::string, std::int64_t> count_suspects() const;
 
   // Stores the model and, for every sentence, its coefficients (float), computed in blocks by
   // several threads. After the last sentence. Throws Interrupted.

@@ -45,12 +45,12 @@ std::vector<CorpusRecord> read_corpora(const Connection& connection) {
 }
 
 // Id and frame count of a sentence.
-struct StoredSentence {
+struct FoundSentence {
   std::int64_t id = 0;
   Eigen::Index frame_count = 0;
 };
 
-StoredSentence find_sentence(const Connection& connection, const SentenceInfo& sentence) {
+FoundSentence find_sentence(const Connection& connection, const SentenceInfo& sentence) {
   SQLite::Statement statement(
       connection.database(),
       "SELECT s.id, s.frame_count FROM sentences s JOIN speakers k ON k.id = s.speaker_id "
@@ -105,8 +105,8 @@ DatabaseInfo MotionDatabase::info() const {
     info.frames = count(connection, "SELECT coalesce(sum(frame_count), 0) FROM sentences");
     info.nodes = count(connection, "SELECT count(*) FROM nodes");
     info.pruned = count(connection, "SELECT count(*) FROM prunings");
-    info.suspect = count(
-        connection, "SELECT count(*) FROM (SELECT DISTINCT sentence_id, row FROM suspect_marks)");
+    info.suspect =
+        count(connection, "SELECT count(*) FROM (SELECT DISTINCT sentence_id, row FROM suspects)");
     info.with_gaps = count(connection, "SELECT count(*) FROM nodes WHERE has_gap = 1");
     info.nodes_per_phoneme =
         counts(connection, "SELECT p.name, count(*) FROM nodes n JOIN phonemes p "
@@ -125,7 +125,7 @@ FrameMatrix MotionDatabase::load_channels(const SentenceInfo& sentence) const {
   const Connection& connection = *impl_->connection;
   return store::translated(connection.where(), [&] {
     const store::Snapshot snapshot(connection);
-    const StoredSentence found = find_sentence(connection, sentence);
+    const FoundSentence found = find_sentence(connection, sentence);
     SQLite::Statement statement(connection.database(),
                                 "SELECT frames FROM channels WHERE sentence_id = ?");
     statement.bind(1, found.id);
@@ -141,7 +141,7 @@ std::vector<HeadPose> MotionDatabase::load_head(const SentenceInfo& sentence) co
   const Connection& connection = *impl_->connection;
   return store::translated(connection.where(), [&] {
     const store::Snapshot snapshot(connection);
-    const StoredSentence found = find_sentence(connection, sentence);
+    const FoundSentence found = find_sentence(connection, sentence);
     SQLite::Statement statement(connection.database(),
                                 "SELECT poses FROM head_poses WHERE sentence_id = ?");
     statement.bind(1, found.id);

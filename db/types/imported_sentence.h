@@ -3,6 +3,7 @@
 
 #include "db/types/motion.h"
 #include "db/types/phoneme_set.h"
+#include "db/types/suspect_mark.h"
 
 #include <cstdint>
 #include <string>
@@ -16,7 +17,7 @@ struct ImportedNode {
   std::int32_t first_frame = 0; // into the sentence's frames
   std::int32_t frame_count = 0;
   bool has_gap = false;             // holds frames whose gaps were too long to fill
-  std::vector<std::string> suspect; // why it is suspect; empty = it is not
+  std::vector<SuspectMark> suspect; // what its recording shows; empty = nothing
 };
 
 // One sentence as the importer hands it to the store: at the database rate, head motion off.

@@ -2,7 +2,6 @@
 #include "tools/app/held_out.h"
 
 #include "db/import/prepare.h"
-#include "db/import/suspect.h"
 #include "db/store/motion_database.h"
 #include "db/types/errors.h"
 #include "db/types/text.h"
@@ -69,10 +68,8 @@ HeldOut read_held_out(const std::filesystem::path& path, const Corpus& corpus,
   for (const Rejection& rejection : survey.rejections) {
     held_out.notes.push_back(rejection.reason);
   }
-  const SuspectLimits limits = suspect_limits(survey.usual, corpus.layout.kind);
   const PrepareContext context{.corpus = corpus,
                                .survey = survey,
-                               .limits = limits,
                                .options = options,
                                .rate_hz = held_out.tables.begin()->second.rate_hz};
   const auto take = [&](std::vector<PreparedRecording>& some) {

@@ -3,10 +3,10 @@
 
 #include "db/import/corpus.h"
 #include "db/import/prepare.h"
-#include "db/import/suspect.h"
 #include "db/store/motion_database.h"
 #include "db/types/errors.h"
 #include "db/types/text.h"
+#include "tools/app/find_suspects.h"
 
 #include <algorithm>
 #include <chrono>
@@ -213,7 +213,6 @@ ImportReport import_corpus(const ImportOptions& options, const Progress& progres
   const Settled settled = look_into(options.database);
   check_new(settled, corpus);
   const Survey survey = survey_corpus(corpus, options.recordings, settled.heads, progress);
-  const SuspectLimits limits = suspect_limits(survey.usual, corpus.layout.kind);
   const double rate_hz = choose_rate(options, settled, survey);
   settle_scale(corpus.layout, survey, settled);
   ImportReport report = begin_report(corpus, survey, rate_hz);
@@ -223,12 +222,16 @@ ImportReport import_corpus(const ImportOptions& options, const Progress& progres
   ImportTransaction transaction = database.begin_import(corpus.layout, rate_hz);
   transaction.add_phonemes(corpus.phoneme_set.phonemes());
   set_references(transaction, survey, options.database);
-  const PrepareContext context{.corpus = corpus,
-                               .survey = survey,
-                               .limits = limits,
-                               .options = options.recordings,
-                               .rate_hz = rate_hz};
+  const PrepareContext context{
+      .corpus = corpus, .survey = survey, .options = options.recordings, .rate_hz = rate_hz};
   store_sentences(transaction, context, report, stopwatch, progress);
+  transaction.set_channel_suspects(
+      find_suspects([&](const auto& visit) { transaction.for_each_stored_sentence(visit); },
+                    corpus.layout, rate_hz, options.recordings.threads, progress));
+  for (const auto& [reason, nodes] : transaction.count_suspects()) {
+    report.suspects[reason] = nodes;
+  }
+  stopwatch.stop(report.timings, "suspects");
   progress.update("fitting", 0, 1);
   const PcaModel pca =
       fit_to_database(transaction, options, corpus.layout.channel_count(), report, progress);

@@ -119,29 +119,6 @@ void add_info(CLI::App& app, CallWords& words) {
   add_database(verb, words.info.database, false);
 }
 
-void add_nodes(CLI::App& app, CallWords& words) {
-  NodeFilter& filter = words.nodes.filter;
-  CLI::App* verb =
-      app.add_subcommand("nodes", "List motion nodes: the recorded phonemes of a database");
-  verb->footer("Example:\n  phonomime nodes ann.db --phoneme aa --emotion happiness --limit 10\n\n"
-               "A node is listed where all of the options hold for it.");
-  add_database(verb, words.nodes.database, false);
-  const auto add = [&](const char* name, std::string& text, const char* meaning) {
-    verb->add_option(name, text, meaning)->type_name("NAME");
-  };
-  add("--phoneme", filter.phoneme, "Only this phoneme");
-  add("--emotion", filter.emotion, "Only this emotion");
-  add("--speaker", filter.speaker, "Only this speaker");
-  add("--sentence", filter.sentence, "Only this sentence (its id)");
-  add("--previous", filter.previous_phoneme, "Only after this phoneme (pau is silence)");
-  add("--next", filter.next_phoneme, "Only before this phoneme (pau is silence)");
-  verb->add_flag("--suspect", words.only_suspect, "Only suspects: jumps, odd durations, stillness");
-  verb->add_flag("--pruned", words.only_pruned, "Only those that were taken out of use");
-  verb->add_flag("--gaps", words.only_gaps, "Only those with unfilled gaps");
-  verb->add_option("--limit", words.nodes.limit, "At most this many (default: all)")
-      ->type_name("N");
-}
-
 void add_explain(CLI::App& app, CallWords& words) {
   CLI::App* verb = app.add_subcommand("explain", "A synthesis result as a table people read");
   verb->footer("Example:\n  phonomime synth --db ann.db hello.lab -o hello.json\n"
@@ -161,10 +138,6 @@ void add_common(CLI::App& app, CommonArguments& common) {
     verb->add_flag("--json", common.json, "Report as JSON on stdout");
     verb->add_flag("--quiet", common.quiet, "No progress, no messages but errors");
   }
-}
-
-std::optional<bool> only_if(bool flag) {
-  return flag ? std::optional(true) : std::nullopt;
 }
 
 std::vector<std::string> verb_names(const CLI::App& app) {
@@ -224,6 +197,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   add_import(app, words);
   add_info(app, words);
   add_nodes(app, words);
+  add_curation(app, words);
   add_synth(app, words);
   add_batch(app, words);
   add_evaluate(app, words);
@@ -244,10 +218,6 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw_usage(app, error);
   }
-  check_limit(words.nodes.limit);
-  words.nodes.filter.suspect = only_if(words.only_suspect);
-  words.nodes.filter.pruned = only_if(words.only_pruned);
-  words.nodes.filter.has_gap = only_if(words.only_gaps);
   if (!words.head.empty()) {
     words.synth.options.head = parse_head(words.head);
   }
@@ -270,8 +240,8 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     words.arguments.verb = words.import;
   } else if (verb == "info") {
     words.arguments.verb = words.info;
-  } else if (verb == "nodes") {
-    words.arguments.verb = words.nodes;
+  } else if (take_curation_words(*app.get_subcommands().front(), words)) {
+    return words.arguments;
   } else if (verb == "synth" && words.streams) {
     words.stream.synth = words.synth.options;
     if (app.get_subcommands().front()->count("--runners-up") == 0) {

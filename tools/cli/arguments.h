@@ -8,6 +8,7 @@
 #include "tools/app/stream.h"
 #include "tools/app/synth.h"
 #include "tools/app/tune.h"
+#include "tools/cli/curation_arguments.h"
 #include "tools/cli/map_arguments.h"
 
 #include <filesystem>
@@ -68,10 +69,11 @@ struct PrintArguments {
 
 struct Arguments {
   CommonArguments common;
-  std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SynthArguments,
-               StreamArguments, MapBuildArguments, MapShowArguments, MapImageArguments,
-               MapPickArguments, MapQualityArguments, RecommendArguments, BatchArguments,
-               EvaluateArguments, TuneArguments, ExplainArguments>
+  std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SuspectsArguments,
+               CurateArguments, JournalArguments, SynthArguments, StreamArguments,
+               MapBuildArguments, MapShowArguments, MapImageArguments, MapPickArguments,
+               MapQualityArguments, RecommendArguments, BatchArguments, EvaluateArguments,
+               TuneArguments, ExplainArguments>
       verb;
 };
 

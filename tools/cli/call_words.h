@@ -24,6 +24,17 @@ struct MapWords {
   std::vector<std::string> context, palette;
 };
 
+// Of verbs that list motion nodes, or take them out of use.
+struct CurationWords {
+  NodeFilter filter;
+  bool only_suspect = false, only_pruned = false, only_gaps = false;
+  bool csv = false, keys_alone = false;
+  long limit = 0; // 0 = all
+  SuspectsArguments suspects;
+  CurateArguments curate;
+  JournalArguments journal;
+};
+
 // What the words of the call are put into before a verb's struct is made of them.
 struct CallWords {
   Arguments arguments;
@@ -38,7 +49,7 @@ struct CallWords {
   ExplainArguments explain;
   MapWords map;
   RecommendArguments recommend; // but its synthesis
-  bool only_suspect = false, only_pruned = false, only_gaps = false;
+  CurationWords curation;
   std::string scale, cost, head, silence = "linear", shard = "1/1";
   bool no_rest = false, streams = false;
 };
@@ -62,6 +73,12 @@ void add_blend(CLI::App* verb, SynthOptions& options);
 void add_joins(CLI::App* verb, SynthOptions& options, CallWords& words);
 
 void add_threads(CLI::App* verb, SynthOptions& options);
+
+void add_nodes(CLI::App& app, CallWords& words);
+// suspects, prune, restore, undo, journal
+void add_curation(CLI::App& app, CallWords& words);
+// Whether the call's verb is one of these or `nodes`: then its words are taken.
+bool take_curation_words(const CLI::App& verb, CallWords& words);
 
 void add_synth(CLI::App& app, CallWords& words);
 void add_batch(CLI::App& app, CallWords& words);

@@ -12,6 +12,14 @@ namespace phonomime {
 
 namespace {
 
+std::vector<std::string> suspect_texts(const NodeRecord& node) {
+  std::vector<std::string> texts;
+  for (const SuspectMark& mark : node.suspect) {
+    texts.push_back(mark.text);
+  }
+  return texts;
+}
+
 nlohmann::ordered_json node_to_json(const NodeRecord& node) {
   return {{"key", node.key},
           {"phoneme", node.phoneme},
@@ -27,7 +35,7 @@ nlohmann::ordered_json node_to_json(const NodeRecord& node) {
           {"has_gap", node.has_gap},
           {"pruned", node.pruned},
           {"pruned_reason", node.pruned_reason},
-          {"suspect", node.suspect}};
+          {"suspect", suspect_texts(node)}};
 }
 
 std::string node_to_text(const NodeRecord& node) {
@@ -41,7 +49,7 @@ std::string node_to_text(const NodeRecord& node) {
     text += "\tpruned: " + node.pruned_reason;
   }
   if (!node.suspect.empty()) {
-    text += fmt::format("\tsuspect: {}", fmt::join(node.suspect, "; "));
+    text += fmt::format("\tsuspect: {}", fmt::join(suspect_texts(node), "; "));
   }
   return text + "\n";
 }

@@ -14,6 +14,12 @@ void run_verb(const InfoArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 void run_verb(const NodesArguments& arguments, const CommonArguments& common,
               const Progress& progress);
+void run_verb(const SuspectsArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const CurateArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const JournalArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
 void run_verb(const SynthArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 void run_verb(const StreamArguments& arguments, const CommonArguments& common,

@@ -9,7 +9,6 @@ phonomime_test(importer_test
     ${importer_tests_folder}/nodes_test.cpp
     ${importer_tests_folder}/pca_test.cpp
     ${importer_tests_folder}/resample_test.cpp
-    ${importer_tests_folder}/suspect_test.cpp
   LINKS phonomime_import fmt::fmt
   LABELS tsan)
 # Whole imports of made corpora. Of tools/app only what imports: the thread sanitizer's build needs
@@ -18,6 +17,7 @@ phonomime_test(import_corpus_test
   SOURCES
     ${importer_tests_folder}/import_corpus_test.cpp
     ${importer_tests_folder}/import_faults_test.cpp
+    ${PROJECT_SOURCE_DIR}/tools/app/find_suspects.cpp
     ${PROJECT_SOURCE_DIR}/tools/app/import_corpus.cpp
   LINKS phonomime_store phonomime_import fmt::fmt
   LABELS tsan)

@@ -26,7 +26,8 @@ test::MadeCorpus mixed_corpus() {
       made_sentence("s1", "happiness", "Z", 4), made_sentence("s1", "neutral", "B", 3),
       made_sentence("s1", "neutral", "é", 5),   made_sentence("s1", "happiness", "b", 6)};
   corpus.sentences[0].nodes[2].has_gap = true;
-  corpus.sentences[0].nodes[1].suspect = {"jump", "closed"};
+  corpus.sentences[0].nodes[1].suspect = {{.reason = "jump", .score = 3.5, .text = "jump: far"},
+                                          {.reason = "closed", .score = 1.25, .text = "closed"}};
   return corpus;
 }
 
@@ -257,7 +258,10 @@ TEST_F(MotionTableTest, NodesAreListedByEveryFilter) {
   expect({.has_gap = true}, [](const auto& n) { return n.key == "s1/neutral/b#3"; });
   EXPECT_TRUE(database.list_nodes({.pruned = true}).empty());
   const auto suspect = database.list_nodes({.suspect = true});
-  EXPECT_EQ(suspect.at(0).suspect, (std::vector<std::string>{"closed", "jump"}));
+  ASSERT_EQ(suspect.at(0).suspect.size(), 2u);
+  EXPECT_EQ(suspect.at(0).suspect[0].reason, "closed"); // in order of reason
+  EXPECT_EQ(suspect.at(0).suspect[1].text, "jump: far");
+  EXPECT_EQ(suspect.at(0).suspect[1].score, 3.5);
   EXPECT_DOUBLE_EQ(suspect.at(0).start_s, corpus.sentences[0].rows[2].start_s);
   EXPECT_DOUBLE_EQ(suspect.at(0).end_s, corpus.sentences[0].rows[2].end_s);
 }

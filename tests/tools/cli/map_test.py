@@ -309,8 +309,8 @@ class MapTest(cli.DatabaseTest):
         chosen, suspect, pruned = others[:2], others[2], others[3]
         map_database.prune(self.database, pruned)
         with map_database.opened(self.database) as connection:
-            connection.execute("DELETE FROM suspect_marks")
-            connection.execute("INSERT INTO suspect_marks (sentence_id, row, reason) SELECT n.sentence_id, n.row, 'test' FROM nodes n "
+            connection.execute("DELETE FROM suspects")
+            connection.execute("INSERT INTO suspects SELECT n.sentence_id, n.row, 'jump', 'channels', 1, 0, 1, '[]', 'test' FROM nodes n "
                                "JOIN sentences s ON s.id = n.sentence_id JOIN emotions e ON e.id = s.emotion_id "
                                "WHERE e.name || '/' || s.name || '#' || n.row = ?", (suspect.split("/", 1)[1],))
         self.build()
