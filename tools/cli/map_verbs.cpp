@@ -10,10 +10,10 @@ namespace phonomime {
 
 namespace {
 
-// Of maps that were made for this call alone.
+// Of maps that were made for this call alone; JSON says so itself.
 void tell_state(MapState state, const std::string& phoneme, const std::filesystem::path& database,
                 const CommonArguments& common) {
-  if (state != MapState::fresh && !common.quiet) {
+  if (state != MapState::fresh && !common.quiet && !common.json) {
     print_message(fmt::format("the stored maps of /{}/ are {}: made anew, not stored (`phonomime "
                               "map build {}` stores them)",
                               phoneme, map_state_name(state), database.string()));

@@ -28,6 +28,7 @@ nlohmann::ordered_json to_json(const RecommendReport& report) {
                                  {"cost", report.cost},
                                  {"context_correct", report.context_correct},
                                  {"recommended", nlohmann::ordered_json::array()},
+                                 {"notes", report.notes},
                                  {"warnings", report.warnings}};
   for (const Recommendation& one : report.recommended) {
     nlohmann::ordered_json entry = {{"node", one.node},
@@ -87,8 +88,10 @@ void run_verb(const RecommendArguments& arguments, const CommonArguments& common
   const RecommendReport report = recommend_nodes(arguments.options, progress);
   clear_progress();
   if (!common.quiet) {
-    for (const std::string& note : report.notes) {
-      print_message(note);
+    if (!common.json) {
+      for (const std::string& note : report.notes) {
+        print_message(note);
+      }
     }
     for (const std::string& warning : report.warnings) {
       print_message("warning: " + warning);

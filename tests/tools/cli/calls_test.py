@@ -10,7 +10,8 @@ import subprocess
 import phonomime_cli as cli
 import tiny_corpus
 
-VERBS = ("import", "info", "nodes", "synth", "batch", "evaluate", "explain")
+VERBS = ("import", "info", "nodes", "synth", "batch", "evaluate", "tune", "map build", "map show", "map image", "map pick",
+         "map quality", "recommend", "suspects", "prune", "restore", "undo", "journal", "explain")
 
 
 class CallsTest(cli.CliTest):
@@ -35,28 +36,37 @@ class CallsTest(cli.CliTest):
             "batch": ["batch", self.manifest, "--db", self.database, "-o", self.folder / "{id}.csv"],
             "evaluate": ["evaluate", self.corpus, "--folds", "2", "--sentences", "2"],
             "explain": ["explain", self.result],
+            "map build": ["map", "build", self.database],
+            "map show": ["map", "show", self.database],
+            "map image": ["map", "image", self.database, "aa", "-o", self.folder / "out.png"],
+            "map pick": ["map", "pick", self.database, "aa", 0, 0],
+            "map quality": ["map", "quality", self.database],
+            "recommend": ["recommend", self.database, self.transcript, "--row", 2],
+            "suspects": ["suspects", self.database],
+            "journal": ["journal", self.database],
         }
 
     def test_help_of_every_verb_has_an_example_and_the_options(self):
         listed = re.findall(r"^  (\w+) {2,}\S", cli.run_well("--help").split("Verbs:")[1].split("Options:")[0], re.MULTILINE)
-        self.assertEqual(sorted(listed), sorted(VERBS))
+        self.assertEqual(sorted(listed), sorted({verb.split()[0] for verb in VERBS}))
         for verb in VERBS:
             with self.subTest(verb):
-                text = cli.run_well(verb, "--help")
+                text = cli.run_well(*verb.split(), "--help")
                 for option in ("--help", "--json", "--quiet"):
                     self.assertIn(option, text)
                 example = text.split("Example:\n")[1].split("\n\n")[0].replace("\\\n", " ")
                 for line in example.strip().splitlines():
                     words = shlex.split(line)
                     self.assertEqual(words[0], "phonomime")
-                    for option in (word for word in words if word.startswith("-")):
-                        self.assertRegex(cli.run_well(words[1], "--help"), rf"(?m)^  .*{re.escape(option)}\b")
-        for verb in ("import", "synth", "batch", "evaluate"):
-            self.assertIn("--threads", cli.run_well(verb, "--help"))
+                    named = words[1:3] if words[1] == "map" else words[1:2]
+                    for option in (word for word in words if re.match("-[^0-9]", word)):
+                        self.assertRegex(cli.run_well(*named, "--help"), rf"(?m)^  .*{re.escape(option)}\b")
+        for verb in ("import", "synth", "batch", "evaluate", "map build", "recommend"):
+            self.assertIn("--threads", cli.run_well(*verb.split(), "--help"))
 
     def test_help_is_for_people(self):
         """Lines that fit a terminal, no inner workings, and a meaning for each option."""
-        for verb in ((), *((verb,) for verb in VERBS)):
+        for verb in ((), ("map",), *(verb.split() for verb in VERBS)):
             with self.subTest(" ".join(verb)):
                 text = cli.run_well(*verb, "--help")
                 self.assertRegex(text, rf"\nUsage: phonomime {' '.join(verb)}")
@@ -73,13 +83,14 @@ class CallsTest(cli.CliTest):
         self.assertRegex(cli.run_well("--version"), r"^phonomime \d+\.\d+\.\d+\n$")
 
     def test_quiet_prints_nothing_on_success(self):
-        for verb in ("import", "synth", "batch", "evaluate"):
+        for verb in ("import", "synth", "batch", "evaluate", "map build", "map image"):
             with self.subTest(verb):
                 result = cli.run(*self.calls()[verb], "--quiet")
                 self.assertEqual((result.returncode, result.stdout, result.stderr), (cli.DONE, "", ""))
 
     def test_quiet_leaves_data_on_stdout(self):
-        for verb in ("info", "nodes", "explain"):
+        for verb in ("info", "nodes", "explain", "map show", "map pick", "map quality", "recommend", "suspects",
+                     "journal"):
             with self.subTest(verb):
                 result = cli.run(*self.calls()[verb], "--quiet")
                 self.assertEqual((result.returncode, result.stderr), (cli.DONE, ""))

@@ -62,7 +62,9 @@ class MapTest(cli.DatabaseTest):
     def test_other_options_make_other_maps(self):
         self.build()
         usual = map_database.maps(self.database)
-        self.assertTrue(all(entry["built"] for entry in self.build("--neighbours", 5, "--components", "largest")))
+        for options in (["--components", "largest"], ["--largest-exact", 4000], ["--landmarks", 400], ["--seed", 2],
+                        ["--neighbours", 5]):
+            self.assertTrue(all(entry["built"] for entry in self.build(*options)), options)
         other = map_database.maps(self.database)
         self.assertEqual({entry["neighbours"] for entry in other.values()}, {5})
         self.assertNotEqual({name: entry["isomap"] for name, entry in other.items()},
@@ -364,9 +366,22 @@ class MapTest(cli.DatabaseTest):
             self.assertEqual(contest["isomap_better"], sum(sign * (a - b) > 0 for a, b, _ in pairs), measure)
             self.assertEqual(contest["pca_better"], sum(sign * (a - b) < 0 for a, b, _ in pairs), measure)
             self.assertAlmostEqual(contest["isomap_mean"], sum(a * n for a, _, n in pairs) / sum(n for _, _, n in pairs))
+        stored = map_database.maps(self.database)
         for entry in report["phonemes"]:
-            stored = map_database.maps(self.database)[entry["phoneme"]]
-            self.assertEqual(entry["isomap"]["residual_variance"], stored["isomap_residual_variance"])
+            for kind in ("isomap", "pca"):
+                self.assertEqual(entry[kind]["residual_variance"], stored[entry["phoneme"]][f"{kind}_residual_variance"])
+                purity = self.purity(map_database.frames(self.database, entry["phoneme"]),
+                                     map_database.places(stored[entry["phoneme"]], kind))
+                self.assertAlmostEqual(entry[kind]["purity"], purity)
+
+    def purity(self, frames, places):
+        """Mean share of a frame's 12 nearest on the map, its own node's left out, with its emotion."""
+        shares = []
+        for (key, _, _), (x, y) in zip(frames, places):
+            others = sorted(((px - x) ** 2 + (py - y) ** 2, i) for i, (px, py) in enumerate(places) if frames[i][0] != key)
+            nearest = [frames[i][0].split("/")[1] for _, i in others[:12]]
+            shares.append(nearest.count(key.split("/")[1]) / len(nearest))
+        return sum(shares) / len(shares)
 
 
 class BadMapCallTest(cli.DatabaseTest):
