@@ -150,10 +150,8 @@ TEST(OldDatabases, SuspectsOfVersion2KeepTheirTextsAndAreToldApart) {
   ASSERT_EQ(pruned.size(), 1u);
   EXPECT_TRUE(database.journal().empty());
   database = MotionDatabase::open(path, OpenMode::read_write);
-  database.curate({.action = CurationAction::restore,
-                   .keys = {pruned[0].key},
-                   .by = "ann",
-                   .reason = "fine"});
+  database.curate(
+      {.action = CurationAction::restore, .keys = {pruned[0].key}, .by = "ann", .reason = "fine"});
   EXPECT_TRUE(database.list_nodes({.pruned = true}).empty());
   test::expect_sound(path);
 }
