@@ -205,7 +205,7 @@ class BadCallTest(cli.DatabaseTest):
             (["import", self.folder, "--db", self.folder / "new.db", "--share", "0"], ("--share", "above 0 and up to 1", "got 0")),
             (["import", self.folder, "--db", self.folder / "new.db", "--share", "nan"], ("--share", "above 0 and up to 1")),
             (["nodes", self.database, "--limit", "-1"], ("--limit", "0 (all) or more", "got -1")),
-            (["frobnicate", self.database], ('"frobnicate"', "one of import, info, nodes, synth", "--help")),
+            (["frobnicate", self.database], ('"frobnicate"', "one of import, info, nodes, suspects", "--help")),
             (["sinth", self.database], ('"sinth"', 'Did you mean "synth"?')),
             (["nods", self.database], ('"nods"', 'Did you mean "nodes"')),
             ([], ("verb", "one of import, info", "--help")),
