@@ -21,6 +21,9 @@ class CallsTest(cli.CliTest):
         cls.corpus = tiny_corpus.Corpus(folder / "ann", sentences=30).write()
         cls.database = folder / "ann.db"
         cli.run_well("import", cls.corpus, "--db", cls.database)
+        node = cli.run_json("nodes", cls.database)[0]["key"]
+        cli.run_well("prune", cls.database, node, "--reason", "to have a journal")
+        cli.run_well("undo", cls.database)
         cls.transcript = cli.write_transcript(folder / "hello.lab", ["b", "aa", "m", "iy"])
         cls.manifest = folder / "lines.tsv"
         cls.manifest.write_text("transcript\nhello.lab\n")
@@ -101,7 +104,8 @@ class CallsTest(cli.CliTest):
             with self.subTest(verb):
                 result = cli.run(*call, "--json")
                 self.assertEqual((result.returncode, result.stderr), (cli.DONE, ""))
-                self.assertTrue(json.loads(result.stdout))
+                told = json.loads(result.stdout)
+                self.assertTrue(told or verb == "suspects")  # of which the corpus has none
 
     def test_no_progress_in_a_pipe(self):
         result = cli.run(*self.calls()["import"])
