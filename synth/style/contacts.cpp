@@ -3,6 +3,7 @@
 
 #include "db/types/errors.h"
 #include "db/types/lip_measures.h"
+#include "db/types/percentile.h"
 
 #include <algorithm>
 #include <array>
@@ -21,15 +22,6 @@ constexpr double kSpare_mm = 1e-6; // to which a range is met
 constexpr double kInside_mm =
     0.05; // closed lips that had opened are brought so far under the limit
 constexpr int kMostRounds = 40;
-
-// Linear between the two nearest values. `values` must not be empty.
-double percentile(std::vector<double> values, double share) {
-  std::ranges::sort(values);
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-}
 
 // The cubic B-spline of support (-2, 2), 2/3 at its middle: smooth, and any sum of shifted ones can
 // take given values at given places (its Fourier transform is never negative).
@@ -146,7 +138,7 @@ ContactRanges recorded_contacts(const MotionTable& table, const CoefficientApert
   }
   ContactRanges ranges;
   for (auto& [phoneme, values] : smallest) {
-    ranges[phoneme] = {percentile(values, 0.1), percentile(values, 0.9)};
+    ranges[phoneme] = {*percentile(values, 0.1), *percentile(values, 0.9)};
   }
   return ranges;
 }

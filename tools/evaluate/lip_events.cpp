@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/evaluate/lip_events.h"
 
+#include "db/types/percentile.h"
 #include "db/types/row_frames.h"
 #include "synth/pipeline/closures.h"
-#include "tools/evaluate/percentile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "tools/evaluate/measure_sums.h"
 
 #include "db/types/errors.h"
-#include "tools/evaluate/percentile.h"
+#include "db/types/percentile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/types/html_text.h"
+#include "db/types/percentile.h"
 #include "db/types/text.h"
-#include "tools/evaluate/percentile.h"
 #include "tools/evaluate/text_table.h"
 #include "tools/tune/curve_picture.h"
 #include "tools/tune/tuning.h"

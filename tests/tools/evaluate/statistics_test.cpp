@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "db/types/percentile.h"
 #include "tools/evaluate/measure_sums.h"
 #include "tools/evaluate/paired_test.h"
-#include "tools/evaluate/percentile.h"
 #include "tools/evaluate/time_warping.h"
 
 #include "db/types/errors.h"

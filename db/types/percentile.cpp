@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/evaluate/percentile.h"
+#include "db/types/percentile.h"
 
 #include <algorithm>
 #include <cmath>
