@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An import that is killed or stopped leaves the database as it was before, or as it is after."""
-import collections
 import json
 import os
-import pathlib
 import shutil
 import signal
-import subprocess
-import time
 
 import phonomime_cli as cli
 import tiny_corpus
@@ -16,27 +12,9 @@ KILLS = 25  # of imports into a new database, and as many into one that holds a 
 
 KILLS_OF_RECORDINGS = 6
 
-Import = collections.namedtuple("Import", "status said work_s")
-
 
 def run_import(corpus, database, number=None, after_s=0.0):
-    """Runs an import, which gets the signal once it has worked (not waited) so long. Its exit
-    status, its stderr and the time that it worked."""
-    command = [cli.PROGRAM, "import", corpus, "--db", database, "--quiet", "--threads", "1"]
-    work_s = 0.0
-    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, text=True) as process:
-        while process.poll() is None:
-            try:
-                work_s = int(pathlib.Path(f"/proc/{process.pid}/schedstat").read_text().split()[0]) * 1e-9
-            except (OSError, IndexError):  # it has just ended
-                break
-            if number and work_s >= after_s:
-                process.send_signal(number)
-                break
-            time.sleep(0.001)
-        _, said = process.communicate(timeout=cli.TIME_LIMIT_S)
-    return Import(process.returncode, said, work_s)
+    return cli.run_until("import", corpus, "--db", database, "--quiet", "--threads", "1", number=number, after_s=after_s)
 
 
 class KillCase(cli.CliTest):

@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A build of maps that is stopped or killed keeps what was made, and the next goes on there."""
-import pathlib
 import signal
-import subprocess
-import time
 
 import map_database
 import phonomime_cli as cli
@@ -12,22 +9,7 @@ KILLS = 8
 
 
 def run_build(database, number=None, after_s=0.0):
-    """Exit status, stderr, and the time that it worked; the signal comes once it has worked so long."""
-    command = [cli.PROGRAM, "map", "build", database, "--quiet", "--threads", "2"]
-    work_s = 0.0
-    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, text=True) as process:
-        while process.poll() is None:
-            try:
-                work_s = int(pathlib.Path(f"/proc/{process.pid}/schedstat").read_text().split()[0]) * 1e-9
-            except (OSError, IndexError):  # it has just ended
-                break
-            if number and work_s >= after_s:
-                process.send_signal(number)
-                break
-            time.sleep(0.001)
-        _, said = process.communicate(timeout=cli.TIME_LIMIT_S)
-    return process.returncode, said, work_s
+    return cli.run_until("map", "build", database, "--quiet", "--threads", "2", number=number, after_s=after_s)
 
 
 class MapKillTest(cli.DatabaseTest):

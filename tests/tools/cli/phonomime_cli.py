@@ -4,6 +4,7 @@
 A test file ends with `phonomime_cli.main()`: exit status 77 (ctest's SKIP_RETURN_CODE) where every
 test was skipped, 1 where one failed or none was found.
 """
+import collections
 import hashlib
 import json
 import os
@@ -14,6 +15,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import tiny_corpus
@@ -65,6 +67,28 @@ def run_well(*arguments, **options):
 
 def run_json(*arguments):
     return json.loads(run_well(*arguments, "--json"))
+
+
+Signalled = collections.namedtuple("Signalled", "status said work_s")
+
+
+def run_until(*arguments, number=None, after_s=0.0):
+    """Runs the program, which gets the signal once it has worked (not waited) so long. Its exit
+    status, its stderr and the time that it worked."""
+    work_s = 0.0
+    with subprocess.Popen([PROGRAM, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, text=True) as process:
+        while process.poll() is None:
+            try:
+                work_s = int(pathlib.Path(f"/proc/{process.pid}/schedstat").read_text().split()[0]) * 1e-9
+            except (OSError, IndexError):  # it has just ended
+                break
+            if number and work_s >= after_s:
+                process.send_signal(number)
+                break
+            time.sleep(0.001)
+        _, said = process.communicate(timeout=TIME_LIMIT_S)
+    return Signalled(process.returncode, said, work_s)
 
 
 def limit_file_size(size_bytes):
