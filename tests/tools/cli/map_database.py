@@ -55,20 +55,3 @@ def reconstruct(database, coefficients):
     mean = struct.unpack(f"<{len(mean) // 8}d", mean)
     basis = struct.unpack(f"<{len(basis) // 8}d", basis)
     return [m + sum(coefficients[d] * basis[d * len(mean) + c] for d in range(dimensions)) for c, m in enumerate(mean)]
-
-
-def prune(database, key):
-    """Takes a node out of use, past the program."""
-    sentence, row = key.split("#")
-    speaker, emotion, name = sentence.split("/")
-    with opened(database) as connection:
-        connection.execute(
-            "INSERT INTO prunings (sentence_id, row, pruned_by, pruned_at, reason) "
-            "SELECT s.id, ?, 'ann', '2026-01-02T03:04:05Z', 'jump' FROM sentences s "
-            "JOIN speakers k ON k.id = s.speaker_id JOIN emotions e ON e.id = s.emotion_id "
-            "WHERE k.name = ? AND e.name = ? AND s.name = ?", (int(row), speaker, emotion, name))
-
-
-def restore_all(database):
-    with opened(database) as connection:
-        connection.execute("DELETE FROM prunings")

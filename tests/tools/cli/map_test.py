@@ -161,7 +161,7 @@ class MapTest(cli.DatabaseTest):
         before, said = self.image("before")
         self.assertEqual(said, "")
         stored = map_database.maps(self.database)
-        map_database.prune(self.database, self.keys("--phoneme", "aa")[1])
+        cli.prune(self.database, self.keys("--phoneme", "aa")[1])
         states = self.states()
         self.assertEqual([name for name, state in states.items() if state != "fresh"], ["aa"])
         self.assertEqual(states["aa"], "stale")
@@ -174,7 +174,7 @@ class MapTest(cli.DatabaseTest):
         self.assertEqual([entry["phoneme"] for entry in self.build() if entry["built"]], ["aa"])
         self.assertEqual(self.image("after"), (made_anew, ""))
 
-        map_database.restore_all(self.database)
+        cli.run_well("restore", self.database, "--phoneme", "aa", "--reason", "fine")
         self.assertEqual(self.states()["aa"], "stale")
         self.build()
         self.assertEqual(map_database.maps(self.database), stored)
@@ -182,15 +182,15 @@ class MapTest(cli.DatabaseTest):
 
     def test_a_restored_node_makes_the_map_fresh_again(self):
         self.build()
-        map_database.prune(self.database, self.keys("--phoneme", "aa")[0])
+        cli.prune(self.database, self.keys("--phoneme", "aa")[0])
         self.assertEqual(self.states()["aa"], "stale")
-        map_database.restore_all(self.database)
+        cli.run_well("restore", self.database, "--phoneme", "aa", "--reason", "fine")
         self.assertEqual(self.states()["aa"], "fresh")
 
     def test_a_phoneme_that_is_pruned_altogether(self):
         self.build()
         for key in self.keys("--phoneme", "aa"):
-            map_database.prune(self.database, key)
+            cli.prune(self.database, key)
         shown = {entry["phoneme"]: entry for entry in cli.run_json("map", "show", self.database)}
         self.assertEqual((shown["aa"]["state"], shown["aa"]["nodes"]), ("stale", 0))
         self.assertRefused(cli.BAD_INPUT, ['"aa"'], "map", "pick", self.database, "aa", 0, 0)
@@ -309,7 +309,7 @@ class MapTest(cli.DatabaseTest):
         in_context = self.keys("--phoneme", "aa", "--previous", triphone[0], "--next", triphone[1])
         others = [node["key"] for node in nodes if node["key"] not in in_context]
         chosen, suspect, pruned = others[:2], others[2], others[3]
-        map_database.prune(self.database, pruned)
+        cli.prune(self.database, pruned)
         with map_database.opened(self.database) as connection:
             connection.execute("DELETE FROM suspects")
             connection.execute("INSERT INTO suspects SELECT n.sentence_id, n.row, 'jump', 'channels', 1, 0, 1, '[]', 'test' FROM nodes n "
@@ -459,7 +459,7 @@ class BadMapCallTest(cli.DatabaseTest):
         result = self.folder / "hello.json"
         cli.run_well("synth", "--db", self.database, transcript, "-o", result)
         key = next(row["node"] for row in cli.json.loads(result.read_text())["path"] if row["phoneme"] == "aa")
-        map_database.prune(self.database, key)
+        cli.prune(self.database, key)
         self.assertRefused(cli.BAD_INPUT, [result, key, "pruned"], "map", "image", self.database, "aa",
                            "-o", self.folder / "new.png", "--path", result)
 

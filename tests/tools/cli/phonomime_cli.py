@@ -65,6 +65,10 @@ def run_well(*arguments, **options):
     return result.stdout
 
 
+def prune(database, key):
+    run_well("prune", database, key, "--by", "ann", "--reason", "jump")
+
+
 def run_json(*arguments):
     return json.loads(run_well(*arguments, "--json"))
 

@@ -84,7 +84,7 @@ class RecommendTest(cli.DatabaseTest):
         constraints = self.folder / "avoid"
         constraints.write_text(f"2 avoid {first}\n")
         self.assertNotIn(first, [one["node"] for one in self.recommend("--row", 2, "--limit", 1000, "--constraints", constraints)["recommended"]])
-        map_database.prune(self.database, first)
+        cli.prune(self.database, first)
         self.assertNotIn(first, [one["node"] for one in self.recommend("--row", 2, "--limit", 1000)["recommended"]])
 
     def test_every_line_is_one_of_a_constraint_file(self):
@@ -113,7 +113,7 @@ class RecommendTest(cli.DatabaseTest):
         markers = list(tiny_corpus.MARKERS)
         aperture = channels[3 * markers.index("lip_up") + 1] - channels[3 * markers.index("lip_lo") + 1]
         self.assertAlmostEqual(first["aperture"], aperture, places=5)
-        map_database.prune(self.database, self.nodes("--phoneme", "aa")[-1])
+        cli.prune(self.database, self.nodes("--phoneme", "aa")[-1])
         self.assertIsNone(self.recommend("--row", 2)["recommended"][0]["place"])  # stale
 
     def test_threads_change_no_byte(self):
