@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/style/tempo.h"
+
+#include "tests/support/expect_error.h"
+#include "tests/synth/style/made_table.h"
+
+#include <gtest/gtest.h>
+
+namespace phonomime::test {
+
+namespace {
+
+TimedPhoneme row(const std::string& phoneme, double start_s, double end_s) {
+  return {{phoneme, phoneme, Visibility::intermediate}, start_s, end_s};
+}
+
+TempoModel made_tempo() {
+  return {.neutral = "neutral",
+          .emotions = {{"anger", {.overall = 0.8, .of_viseme = {{"a", 0.6}}}},
+                       {"joy", {.overall = 0.2, .of_viseme = {}}}}};
+}
+
+} // namespace
+
+TEST(Tempo, IsTheRatioOfDurationsDrawnToTheOverallOne) {
+  MadeTable made;
+  for (int i = 0; i < 40; ++i) { // a: 10 frames to 5, b: 10 to 20; c is said in neutral alone
+    const std::string id = "s" + std::to_string(i);
+    made.say(id, "neutral", {{"a", 8 + 4 * (i % 2)}, {"b", 10}, {"c", 7}});
+    made.say(id, "anger", {{"a", 5}, {"b", 20}});
+  }
+  const TempoModel tempo = learn_tempo(made.table, {.styles = {"neutral", "anger"}});
+  ASSERT_EQ(tempo.emotions.size(), 1U);
+  const EmotionTempo& anger = tempo.emotions.at("anger");
+  EXPECT_NEAR(anger.overall, 25.0 / 20.0, 1e-12);
+  // 40 phonemes of their own against 20 of the overall ratio.
+  EXPECT_NEAR(anger.of_viseme.at("a"), (40 * 0.5 + 20 * 1.25) / 60.0, 1e-12);
+  EXPECT_NEAR(anger.of_viseme.at("b"), (40 * 2.0 + 20 * 1.25) / 60.0, 1e-12);
+  EXPECT_FALSE(anger.of_viseme.contains("c"));
+}
+
+TEST(Tempo, RetimesPhonemesAndLeavesSilence) {
+  const std::vector<TimedPhoneme> rows = {row("pau", 0.0, 0.5), row("a", 0.5, 0.7),
+                                          row("c", 0.7, 0.8),   row("a", 0.8, 1.0),
+                                          row("a", 1.0, 1.1),   row("pau", 1.1, 2.0)};
+  const std::vector<EmotionModifier> emotions = {{"anger", 1.0}, {"anger", 1.0},   {"anger", 0.5},
+                                                 {"anger", 0.0}, {"neutral", 1.5}, {"joy", 1.5}};
+  const std::vector<TimedPhoneme> found = retime(rows, emotions, made_tempo());
+  const double durations_s[] = {0.5, 0.2 * 0.6, 0.1 * 0.9, 0.2, 0.1, 0.9};
+  double start_s = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(found[i].phoneme, rows[i].phoneme);
+    EXPECT_NEAR(found[i].start_s, start_s, 1e-12);
+    EXPECT_NEAR(found[i].end_s, start_s + durations_s[i], 1e-12);
+    start_s = found[i].end_s;
+  }
+  EXPECT_NEAR(retimed_at(rows, found, -0.1), -0.1, 1e-12);
+  EXPECT_NEAR(retimed_at(rows, found, 0.6), 0.56, 1e-12);
+  EXPECT_NEAR(retimed_at(rows, found, 0.7), 0.62, 1e-12);
+  EXPECT_NEAR(retimed_at(rows, found, 2.5), found.back().end_s + 0.5, 1e-12);
+}
+
+TEST(Tempo, NeverTurnsTimeRound) {
+  const std::vector<TimedPhoneme> rows = {row("a", 0.0, 1.0)};
+  const std::vector<EmotionModifier> far = {{"joy", 1.5}};
+  EXPECT_NEAR(retime(rows, far, made_tempo())[0].end_s, 0.1, 1e-12);
+}
+
+TEST(Tempo, RefusesAnEmotionThatItDoesNotKnow) {
+  const std::vector<TimedPhoneme> rows = {row("a", 0.0, 1.0)};
+  const std::vector<EmotionModifier> bored = {{"boredom", 1.0}};
+  expect_error([&] { retime(rows, bored, made_tempo()); },
+               "the tempo of the emotion boredom was not learned (expected neutral, anger, joy, "
+               "got boredom)");
+  EXPECT_THROW(retime(rows, {}, made_tempo()), InternalError);
+}
+
+} // namespace phonomime::test
