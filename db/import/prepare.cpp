@@ -2,6 +2,7 @@
 #include "db/import/prepare.h"
 
 #include "db/import/nodes.h"
+#include "db/import/normalise.h"
 #include "db/import/readers.h"
 #include "db/import/recorded_faults.h"
 #include "db/types/errors.h"
@@ -26,16 +27,6 @@ std::int64_t count_held(const SourceClock& clock, Eigen::Index recorded, double 
   return std::max<std::int64_t>(0, before) + (count - std::max<std::int64_t>(0, to_last));
 }
 
-// Neither the fill of a gap nor a low-pass may swing beyond what was recorded where the ends mean
-// something: a weight of 0 is nothing at all. `recorded` may lack values (NaN).
-void keep_recorded_range(FrameMatrixD& channels, const FrameMatrixD& recorded) {
-  for (Eigen::Index c = 0; c < channels.cols(); ++c) {
-    const double least = recorded.col(c).minCoeff<Eigen::PropagateNumbers>();
-    const double most = recorded.col(c).maxCoeff<Eigen::PropagateNumbers>();
-    channels.col(c) = channels.col(c).cwiseMax(least).cwiseMin(most);
-  }
-}
-
 // A node with a gap stays out of the PCA whole: its other frames are marked too.
 void spread_gaps_over_nodes(ImportedSentence& sentence) {
   for (ImportedNode& node : sentence.nodes) {
@@ -48,35 +39,26 @@ void spread_gaps_over_nodes(ImportedSentence& sentence) {
   }
 }
 
-HeadFree still_head(const RecordedSentence& recorded, const CorpusSentence& sentence,
-                    const PrepareContext& context) {
-  if (context.corpus.layout.kind == LayoutKind::weights) {
-    HeadFree free;
-    free.local = recorded.frames;
-    return free;
+NormalMotion normal_motion(const RecordedSentence& recorded, const CorpusSentence& sentence,
+                           Eigen::Index count, const PrepareContext& context) {
+  const Layout& layout = context.corpus.layout;
+  Eigen::VectorXd reference;
+  if (layout.kind == LayoutKind::markers) {
+    reference = context.survey.references.at(sentence.speaker).pose;
   }
-  const HeadAnchor anchor = head_anchor(context.corpus.layout);
-  HeadFree free =
-      remove_head(recorded.frames, anchor, context.survey.references.at(sentence.speaker).pose,
-                  context.survey.scale);
-  if (!free.found) {
-    throw InputError(
-        {.where = sentence.where,
-         .what = fmt::format("no frame of sentence {} gives the head's pose", quoted(sentence.id)),
-         .expected = anchor.gives_rotation ? "a frame with three rigid markers, not on a line"
-                                           : "a frame with the reference marker"});
-  }
-  return free;
+  return normalise(recorded.frames, recorded.clock, layout, reference, context.survey.scale,
+                   {.where = sentence.where,
+                    .whose = "sentence " + quoted(sentence.id),
+                    .gap_limit_s = context.options.gap_limit_s,
+                    .rate_hz = context.rate_hz,
+                    .frames = count});
 }
 
 PreparedSentence prepare(std::size_t index, RecordedSentence& recorded,
                          const PrepareContext& context) {
   const CorpusSentence& sentence = context.corpus.sentences[index];
-  const int width = context.corpus.layout.channels_per_group();
-  const double recorded_hz = recorded.clock.rate_hz;
-  const HeadFree still = still_head(recorded, sentence, context);
-  GapFill filled = fill_gaps(still.local, width, recorded_hz, context.options.gap_limit_s);
   const Eigen::Index count = first_frame_at(recorded.duration_s, context.rate_hz);
+  NormalMotion motion = normal_motion(recorded, sentence, count, context);
 
   PreparedSentence result;
   ImportedSentence& made = result.sentence;
@@ -86,19 +68,13 @@ PreparedSentence prepare(std::size_t index, RecordedSentence& recorded,
   made.text = sentence.text;
   made.audio = sentence.audio.string();
   made.nodes = cut_into_nodes(recorded.rows, context.rate_hz, sentence.where);
-  FrameMatrixD channels = resample(filled.frames, recorded.clock, context.rate_hz, count);
-  if (context.corpus.layout.kind == LayoutKind::weights) {
-    keep_recorded_range(channels, recorded.frames);
-  }
-  made.channels = channels.cast<float>();
-  made.frame_has_gap = resample_marks(filled.frame_has_gap, recorded.clock, context.rate_hz, count);
-  if (context.corpus.layout.kind == LayoutKind::markers) {
-    made.head = resample_head(still.head, recorded.clock, context.rate_hz, count);
-  }
+  made.channels = motion.channels.cast<float>();
+  made.frame_has_gap = std::move(motion.frame_has_gap);
+  made.head = std::move(motion.head);
   spread_gaps_over_nodes(made);
 
   SentenceAccount& account = result.account;
-  mark_recorded_faults(made.nodes, recorded, filled.gaps, context.corpus.layout, context.rate_hz);
+  mark_recorded_faults(made.nodes, recorded, motion.gaps, context.corpus.layout, context.rate_hz);
   account.sentence = index;
   account.clock = recorded.clock;
   account.recorded_frames = recorded.frames.rows();
@@ -112,11 +88,11 @@ PreparedSentence prepare(std::size_t index, RecordedSentence& recorded,
   account.held_frames = count_held(recorded.clock, recorded.frames.rows(), context.rate_hz, count);
   account.gap_frames =
       std::count(made.frame_has_gap.begin(), made.frame_has_gap.end(), std::uint8_t{1});
-  for (const Gap& gap : filled.gaps) {
+  for (const Gap& gap : motion.gaps) {
     account.missing += gap.frame_count;
   }
-  account.interpolated_poses = still.interpolated;
-  account.gaps = std::move(filled.gaps);
+  account.interpolated_poses = motion.interpolated_poses;
+  account.gaps = std::move(motion.gaps);
   made.rows = std::move(recorded.rows);
   return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/import/recording.h"
 
-#include "db/import/gaps.h"
+#include "db/import/normalise.h"
 #include "db/types/errors.h"
 #include "db/types/frame_times.h"
 #include "db/types/text.h"
@@ -66,25 +66,6 @@ void check_duration(double alignment_s, double motion_s, double tolerance_s, boo
                        "of silence, or allow for more with --tolerance."});
 }
 
-void check_groups(const FrameMatrixD& frames, const Layout& layout,
-                  const CorpusSentence& sentence) {
-  const std::vector<int> missing = groups_missing_throughout(frames, layout.channels_per_group());
-  if (missing.empty()) {
-    return;
-  }
-  const auto count = static_cast<int>(missing.size());
-  const std::string& first = layout.groups[static_cast<std::size_t>(missing.front())].name;
-  throw InputError(
-      {.where = sentence.where,
-       .what = fmt::format("{} of {} groups missing throughout the motion of sentence {}: {}{}",
-                           count == layout.group_count() ? "all" : fmt::format("{}", count),
-                           layout.group_count(), quoted(sentence.id), quoted(first),
-                           count > 1 ? ", ..." : ""),
-       .expected = "each group in at least one frame",
-       .remedy = fmt::format("Check {}, or take the sentence out of the table.",
-                             quoted(sentence.motion_name))});
-}
-
 } // namespace
 
 std::vector<Recording> recordings_of(const Corpus& corpus) {
@@ -130,7 +111,9 @@ RecordedSentence cut_sentence(const LayoutMotion& motion, const Alignment& align
   result.clock = {.rate_hz = motion.rate_hz,
                   .start_s = static_cast<double>(result.first_frame) / motion.rate_hz - start_s};
   result.recorded_s = std::min(end_s, file_s) - start_s;
-  check_groups(result.frames, corpus.layout, sentence);
+  check_groups(result.frames, corpus.layout, sentence.where, "sentence " + quoted(sentence.id),
+               fmt::format("Check {}, or take the sentence out of the table.",
+                           quoted(sentence.motion_name)));
 
   std::vector<TimedPhoneme> rows = to_phonemes(alignment, corpus.phoneme_set);
   const double aligned_s = rows.empty() ? 0.0 : rows.back().end_s;
