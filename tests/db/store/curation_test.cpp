@@ -92,7 +92,7 @@ TEST_F(CurationTest, APrunedNodeIsGoneWithTheLinksAcrossIt) {
 }
 
 TEST_F(CurationTest, TheJournalKeepsWhoWhenAndWhy) {
-  prune({"s1/neutral/a2#3", "s1/neutral/a0#1"});
+  prune({"s1/neutral/a2#3", "s1/neutral/a0#1", "s1/happiness/a1#2"});
   act(CurationAction::restore, {"s1/neutral/a0#1"}, "fine");
   undo();
   const std::vector<JournalEntry> entries = journal();
@@ -102,7 +102,8 @@ TEST_F(CurationTest, TheJournalKeepsWhoWhenAndWhy) {
   EXPECT_EQ(entries[0].by, "ann");
   EXPECT_EQ(entries[0].at, "2026-01-02T00:00:00Z");
   EXPECT_EQ(entries[0].reason, "why");
-  EXPECT_EQ(entries[0].keys, (Keys{"s1/neutral/a0#1", "s1/neutral/a2#3"})); // in order of key
+  EXPECT_EQ(entries[0].keys,
+            (Keys{"s1/happiness/a1#2", "s1/neutral/a0#1", "s1/neutral/a2#3"})); // in order
   EXPECT_FALSE(entries[0].undone);
   EXPECT_EQ(entries[1].reason, "fine");
   EXPECT_TRUE(entries[1].undone);

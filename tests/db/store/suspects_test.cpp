@@ -119,24 +119,24 @@ TEST_F(SuspectsTest, AnImportSetsThoseOfAllCorporaAndCountsItsOwn) {
   import();
   MotionDatabase database = MotionDatabase::open(path, OpenMode::read_write);
   const test::MadeCorpus second = test::made_corpus("b", 2);
-  ImportTransaction import = database.begin_import(test::made_layout(4), test::kRate_hz);
-  import.add_phonemes(test::made_phonemes());
+  ImportTransaction transaction = database.begin_import(test::made_layout(4), test::kRate_hz);
+  transaction.add_phonemes(test::made_phonemes());
   for (const ImportedSentence& sentence : second.sentences) {
-    import.add_sentence(sentence);
+    transaction.add_sentence(sentence);
   }
   std::vector<NodeMarks> marks;
-  import.for_each_stored_sentence([&](const StoredSentence& sentence) {
+  transaction.for_each_stored_sentence([&](const StoredSentence& sentence) {
     marks.push_back({.sentence_id = sentence.id,
                      .row = sentence.nodes.front().row,
                      .marks = {mark("jump", SuspectOrigin::channels, 2.0)}});
-});
-EXPECT_EQ(marks.size(), 6u);
-import.set_channel_suspects(marks);
-EXPECT_EQ(import.count_suspects(), (std::map<std::string, std::int64_t>{{"jump", 2}}));
-import.set_pca(test::made_pca(12, 5), {});
-import.commit({.name = "b", .phoneme_set = "festival_us", .report_json = "{}"});
-EXPECT_EQ(suspects().size(), 6u);
-} // namespace
+  });
+  EXPECT_EQ(marks.size(), 6u);
+  transaction.set_channel_suspects(marks);
+  EXPECT_EQ(transaction.count_suspects(), (std::map<std::string, std::int64_t>{{"jump", 2}}));
+  transaction.set_pca(test::made_pca(12, 5), {});
+  transaction.commit({.name = "b", .phoneme_set = "festival_us", .report_json = "{}"});
+  EXPECT_EQ(suspects().size(), 6u);
+}
 
 TEST_F(SuspectsTest, DamagedMarksAreSaidToBe) {
   corpus.sentences[0].nodes[1].suspect = {mark("jump", SuspectOrigin::channels, 2.0)};
@@ -147,5 +147,5 @@ TEST_F(SuspectsTest, DamagedMarksAreSaidToBe) {
   }
 }
 
-} // namespace phonomime
+} // namespace
 } // namespace phonomime
