@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "synth/retarget/face_scene.h"
+#include "synth/retarget/glb_file.h"
 #include "synth/retarget/mesh_reader.h"
 
-#include "db/types/errors.h"
+#include "db/types/text.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
+#include <map>
+#include <utility>
 
 #include <Eigen/Geometry>
-
+#include <fmt/format.h>
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
@@ -16,63 +21,50 @@
 namespace phonomime {
 namespace {
 
-constexpr std::size_t kMostElements = 20'000'000;
+constexpr std::size_t kMostShapes = 4096;
+constexpr std::size_t kMostOffsets = 100'000'000; // vertices times shapes
 constexpr double kLargestCoordinate = 1e9;
 constexpr int kTriangles = 4; // glTF's default mode
 
-// Pictures are not looked at, so none is decoded.
-bool pass_over_image(tinygltf::Image*, const int, std::string*, std::string*, int, int,
-                     const unsigned char*, int, void*) {
-  return true;
+MeshMaterial material_of(const tinygltf::Material& source) {
+  const auto unit = [](double value) {
+    return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 1.0;
+  };
+  MeshMaterial material;
+  material.name = source.name;
+  const auto& surface = source.pbrMetallicRoughness;
+  for (std::size_t i = 0; i < 4 && i < surface.baseColorFactor.size(); ++i) {
+    material.base_color[i] = unit(surface.baseColorFactor[i]);
+  }
+  material.metallic = unit(surface.metallicFactor);
+  material.roughness = unit(surface.roughnessFactor);
+  material.double_sided = source.doubleSided;
+  return material;
 }
 
-class GlbParser {
+// Walks the nodes of a file's scene and joins what they show.
+class SceneReader : GlbFile {
 public:
-  GlbParser(std::string_view bytes, std::string_view where) : where_(where) {
-    if (bytes.size() < 20 || bytes.substr(0, 4) != "glTF" ||
-        bytes.size() > std::numeric_limits<unsigned>::max()) {
-      fail("this is not a binary glTF file", "the bytes `glTF` at its start");
-    }
-    tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(pass_over_image, nullptr);
-    std::string error;
-    std::string warning;
-    bool loaded = false;
-    try {
-      loaded = loader.LoadBinaryFromMemory(&model_, &error, &warning,
-                                           reinterpret_cast<const unsigned char*>(bytes.data()),
-                                           static_cast<unsigned>(bytes.size()));
-    } catch (const std::exception& defect) {
-      error = defect.what();
-    }
-    if (!loaded) {
-      while (!error.empty() && (error.back() == '\n' || error.back() == '.')) {
-        error.pop_back();
-      }
-      fail("this binary glTF file is damaged", {}, error);
-    }
-    if (!model_.extensionsRequired.empty()) {
-      fail("the file needs an extension of glTF that Phonomime does not read", "plain glTF 2.0",
-           model_.extensionsRequired.front());
-    }
-  }
+  using GlbFile::GlbFile;
 
-  TriangleMesh mesh() {
-    result_.source = where_;
-    for (const tinygltf::Material& material : model_.materials) {
+  // Shapes are read where `with_shapes` asks for them.
+  FaceScene scene(bool with_shapes) {
+    with_shapes_ = with_shapes;
+    result_.source = where();
+    for (const tinygltf::Material& material : model().materials) {
       result_.materials.push_back(material_of(material));
     }
-    if (model_.scenes.empty()) {
+    if (model().scenes.empty()) {
       fail("there is no scene in this file", "a scene with the face");
     }
     const std::size_t scene =
-        model_.defaultScene < 0 ? 0 : static_cast<std::size_t>(model_.defaultScene);
-    if (scene >= model_.scenes.size()) {
-      fail_index("scene", model_.defaultScene, model_.scenes.size());
+        model().defaultScene < 0 ? 0 : static_cast<std::size_t>(model().defaultScene);
+    if (scene >= model().scenes.size()) {
+      fail_index("scene", model().defaultScene, model().scenes.size());
     }
-    visited_.assign(model_.nodes.size(), 0);
-    for (const int node : model_.scenes[scene].nodes) {
-      add_node(node, Eigen::Affine3d::Identity());
+    visited_.assign(model().nodes.size(), 0);
+    for (const int node : model().scenes[scene].nodes) {
+      add_node(node, Eigen::Affine3d::Identity(), -1);
     }
     if (result_.parts.empty()) {
       fail("there is no mesh in this file's scene", "a face of triangles");
@@ -81,46 +73,21 @@ public:
         coordinates_.data(), static_cast<Eigen::Index>(coordinates_.size() / 3), 3);
     result_.triangles = Eigen::Map<const Triangles>(
         corners_.data(), static_cast<Eigen::Index>(corners_.size() / 3), 3);
-    return std::move(result_);
+    FaceScene scene_read;
+    scene_read.nodes = std::move(nodes_);
+    scene_read.meshes = std::move(meshes_);
+    scene_read.face.names = std::move(names_);
+    for (std::vector<double>& offsets : offsets_) {
+      offsets.resize(coordinates_.size(), 0.0); // parts after the last that has the shape
+      scene_read.face.offsets.emplace_back(Eigen::Map<const Points>(
+          offsets.data(), static_cast<Eigen::Index>(offsets.size() / 3), 3));
+      offsets = {};
+    }
+    scene_read.face.neutral = std::move(result_);
+    return scene_read;
   }
 
 private:
-  [[noreturn]] void fail(std::string what, std::string expected = {}, std::string got = {}) const {
-    throw InputError({.where = where_,
-                      .what = std::move(what),
-                      .expected = std::move(expected),
-                      .got = std::move(got)});
-  }
-
-  [[noreturn]] void fail_index(std::string_view kind, long long index, std::size_t count) const {
-    fail("a reference to a " + std::string(kind) + " leads nowhere",
-         "less than " + std::to_string(count), std::to_string(index));
-  }
-
-  template <typename T>
-  const T& at(const std::vector<T>& items, int index, std::string_view kind) const {
-    if (index < 0 || static_cast<std::size_t>(index) >= items.size()) {
-      fail_index(kind, index, items.size());
-    }
-    return items[static_cast<std::size_t>(index)];
-  }
-
-  static MeshMaterial material_of(const tinygltf::Material& source) {
-    const auto unit = [](double value) {
-      return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 1.0;
-    };
-    MeshMaterial material;
-    material.name = source.name;
-    const auto& surface = source.pbrMetallicRoughness;
-    for (std::size_t i = 0; i < 4 && i < surface.baseColorFactor.size(); ++i) {
-      material.base_color[i] = unit(surface.baseColorFactor[i]);
-    }
-    material.metallic = unit(surface.metallicFactor);
-    material.roughness = unit(surface.roughnessFactor);
-    material.double_sided = source.doubleSided;
-    return material;
-  }
-
   Eigen::Affine3d transform_of(const tinygltf::Node& node) const {
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
     if (node.matrix.size() == 16) {
@@ -145,63 +112,138 @@ private:
     return transform;
   }
 
-  void add_node(int index, const Eigen::Affine3d& parent) {
-    const tinygltf::Node& node = at(model_.nodes, index, "node");
+  // `above`: the parent, into nodes_.
+  void add_node(int index, const Eigen::Affine3d& parent, int above) {
+    const tinygltf::Node& node = at(model().nodes, index, "node");
     if (visited_[static_cast<std::size_t>(index)]++ != 0) {
       fail("the scene's nodes are not a tree", "each node once",
            "node " + std::to_string(index) + " again");
     }
     const Eigen::Affine3d transform = parent * transform_of(node);
+    const int here = static_cast<int>(nodes_.size());
+    nodes_.push_back({.name = node.name, .parent = above, .mesh = -1});
     if (node.mesh >= 0) {
-      for (const tinygltf::Primitive& primitive : at(model_.meshes, node.mesh, "mesh").primitives) {
-        add_primitive(primitive, transform);
-      }
+      nodes_.back().mesh = static_cast<int>(meshes_.size());
+      add_mesh(node.mesh, transform);
     }
     if (++depth_ > kDeepest) {
       fail("the scene's nodes are nested too deeply",
            "at most " + std::to_string(kDeepest) + " levels");
     }
     for (const int child : node.children) {
-      add_node(child, transform);
+      add_node(child, transform, here);
     }
     --depth_;
   }
 
-  // First byte of each element and the distance between elements, all checked to lie inside.
-  struct Elements {
-    const unsigned char* first = nullptr;
-    std::size_t stride = 0;
-    std::size_t count = 0;
-    int component = 0;
-  };
+  void add_mesh(int index, const Eigen::Affine3d& transform) {
+    const tinygltf::Mesh& mesh = at(model().meshes, index, "mesh");
+    SceneMesh listed{.name = mesh.name};
+    const std::size_t targets =
+        mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
+    if (with_shapes_) {
+      listed.shapes = target_names(mesh, index, targets);
+    }
+    const std::vector<std::size_t> shapes = find_shapes(listed.shapes);
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      if (with_shapes_ && primitive.targets.size() != targets) {
+        fail(fmt::format("the parts of mesh {} differ in the number of their morph targets",
+                         quoted(mesh.name)),
+             std::to_string(targets), std::to_string(primitive.targets.size()));
+      }
+      const std::size_t first = coordinates_.size();
+      add_primitive(primitive, transform);
+      for (std::size_t k = 0; k < shapes.size(); ++k) {
+        add_offsets(primitive.targets[k], first, transform.linear(), listed.shapes[k],
+                    offsets_[shapes[k]]);
+      }
+      listed.vertices += result_.parts.back().vertex_count;
+      listed.triangles += result_.parts.back().triangle_count;
+    }
+    meshes_.push_back(std::move(listed));
+  }
 
-  Elements elements(int accessor_index, int type, std::string_view what) const {
-    const tinygltf::Accessor& accessor = at(model_.accessors, accessor_index, "accessor");
-    if (accessor.sparse.isSparse || accessor.bufferView < 0) {
-      fail(std::string(what) + " are stored sparsely, which Phonomime does not read");
+  // Of a mesh's morph targets: `extras.targetNames`, as every exporter writes them; made up where
+  // the mesh does not name them.
+  std::vector<std::string> target_names(const tinygltf::Mesh& mesh, int index,
+                                        std::size_t targets) const {
+    if (targets > kMostShapes) {
+      fail(fmt::format("mesh {} has too many morph targets", quoted(mesh.name)),
+           fmt::format("at most {}", kMostShapes), std::to_string(targets));
     }
-    if (accessor.type != type) {
-      fail(std::string(what) + " have another type than glTF asks for");
+    std::vector<std::string> names;
+    const tinygltf::Value& given =
+        mesh.extras.IsObject() ? mesh.extras.Get("targetNames") : tinygltf::Value();
+    if (given.IsArray() && given.ArrayLen() > 0 && given.ArrayLen() != targets) {
+      fail(fmt::format("mesh {} does not name each of its morph targets", quoted(mesh.name)),
+           fmt::format("{} targetNames", targets), std::to_string(given.ArrayLen()));
     }
-    const tinygltf::BufferView& view = at(model_.bufferViews, accessor.bufferView, "buffer view");
-    const tinygltf::Buffer& buffer = at(model_.buffers, view.buffer, "buffer");
-    const int stride = accessor.ByteStride(view);
-    if (stride <= 0 || accessor.count == 0 || accessor.count > kMostElements) {
-      fail("the number or the layout of the " + std::string(what) + " is not usable",
-           "1 to " + std::to_string(kMostElements), std::to_string(accessor.count));
+    std::map<std::string, std::size_t, std::less<>> seen;
+    for (std::size_t k = 0; k < targets; ++k) {
+      const tinygltf::Value& value = given.IsArray() && given.ArrayLen() > 0
+                                         ? given.Get(static_cast<int>(k))
+                                         : tinygltf::Value();
+      std::string name = value.IsString() ? value.Get<std::string>() : std::string();
+      if (!is_valid_utf8(name)) {
+        fail(fmt::format("the name of morph target {} of mesh {} is not UTF-8", k,
+                         quoted(mesh.name)));
+      }
+      if (name.empty()) {
+        name = fmt::format("mesh{}_target{}", index, k);
+      }
+      const auto [twin, is_new] = seen.emplace(name, k);
+      if (!is_new) {
+        fail(fmt::format("two morph targets of mesh {} have the name {}", quoted(mesh.name),
+                         quoted(name)),
+             "a name of its own for each", fmt::format("targets {} and {}", twin->second, k));
+      }
+      names.push_back(std::move(name));
     }
-    const std::size_t size = static_cast<std::size_t>(
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)) *
-        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-    const std::size_t bytes = buffer.data.size();
-    const std::size_t span = static_cast<std::size_t>(stride) * (accessor.count - 1) + size;
-    if (view.byteOffset > bytes || accessor.byteOffset > bytes - view.byteOffset ||
-        span > bytes - view.byteOffset - accessor.byteOffset) {
-      fail("the " + std::string(what) + " reach past the end of the file's data",
-           "at most " + std::to_string(bytes) + " bytes");
+    return names;
+  }
+
+  // Into names_ and offsets_; new ones are added. Meshes share the shapes that they name alike.
+  std::vector<std::size_t> find_shapes(const std::vector<std::string>& names) {
+    std::vector<std::size_t> found;
+    for (const std::string& name : names) {
+      const auto known = shape_index_.emplace(name, names_.size()).first;
+      if (known->second == names_.size()) {
+        names_.push_back(name);
+        offsets_.emplace_back();
+      }
+      found.push_back(known->second);
     }
-    return {buffer.data.data() + view.byteOffset + accessor.byteOffset,
-            static_cast<std::size_t>(stride), accessor.count, accessor.componentType};
+    return found;
+  }
+
+  // The offsets of the vertices from coordinate `first` on; zero where the target has no positions.
+  void add_offsets(const std::map<std::string, int>& target, std::size_t first,
+                   const Eigen::Matrix3d& turn, const std::string& name,
+                   std::vector<double>& offsets) const {
+    if (coordinates_.size() / 3 * names_.size() > kMostOffsets) {
+      fail("the morph targets are too large",
+           fmt::format("at most {} vertices times targets", kMostOffsets));
+    }
+    offsets.resize(first, 0.0); // parts that do not have the shape
+    const auto position = target.find("POSITION");
+    if (position == target.end()) {
+      offsets.resize(coordinates_.size(), 0.0);
+      return;
+    }
+    const std::string what = "offsets of morph target " + quoted(name);
+    const std::vector<float> values = vectors(position->second, what);
+    if (first + values.size() != coordinates_.size()) {
+      fail("the " + what + " are not one for each vertex",
+           std::to_string((coordinates_.size() - first) / 3), std::to_string(values.size() / 3));
+    }
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+      const Eigen::Vector3d offset =
+          turn * Eigen::Vector3d(values[i], values[i + 1], values[i + 2]);
+      if (!offset.allFinite() || offset.cwiseAbs().maxCoeff() > kLargestCoordinate) {
+        fail(fmt::format("number {} of the {} is not a usable one", i / 3, what));
+      }
+      offsets.insert(offsets.end(), {offset.x(), offset.y(), offset.z()});
+    }
   }
 
   void add_primitive(const tinygltf::Primitive& primitive, const Eigen::Affine3d& transform) {
@@ -227,7 +269,7 @@ private:
     }
     part.triangle_count = static_cast<int>(corners_.size() / 3) - part.first_triangle;
     if (primitive.material >= 0) {
-      at(model_.materials, primitive.material, "material");
+      at(model().materials, primitive.material, "material");
       part.material = primitive.material;
     }
     result_.parts.push_back(part);
@@ -249,24 +291,6 @@ private:
       }
       coordinates_.insert(coordinates_.end(), {point.x(), point.y(), point.z()});
     }
-  }
-
-  std::size_t index_at(const Elements& source, std::size_t i) const {
-    const unsigned char* from = source.first + i * source.stride;
-    if (source.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) {
-      return *from;
-    }
-    if (source.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
-      std::uint16_t value = 0;
-      std::memcpy(&value, from, sizeof value);
-      return value;
-    }
-    if (source.component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-      fail("indices are not stored as unsigned integers");
-    }
-    std::uint32_t value = 0;
-    std::memcpy(&value, from, sizeof value);
-    return value;
   }
 
   template <typename IndexAt>
@@ -293,9 +317,13 @@ private:
 
   static constexpr int kDeepest = 200;
 
-  std::string where_;
-  tinygltf::Model model_;
+  bool with_shapes_ = false;
   TriangleMesh result_;
+  std::vector<SceneNode> nodes_;
+  std::vector<SceneMesh> meshes_;
+  std::vector<std::string> names_; // of shapes
+  std::map<std::string, std::size_t, std::less<>> shape_index_;
+  std::vector<std::vector<double>> offsets_; // of each shape, as far as its last part
   std::vector<double> coordinates_;
   std::vector<int> corners_;
   std::vector<int> visited_;
@@ -305,7 +333,11 @@ private:
 } // namespace
 
 TriangleMesh parse_glb(std::string_view bytes, std::string_view where) {
-  return GlbParser(bytes, where).mesh();
+  return SceneReader(bytes, where).scene(false).face.neutral;
+}
+
+FaceScene parse_face_scene(std::string_view bytes, std::string_view where) {
+  return SceneReader(bytes, where).scene(true);
 }
 
 } // namespace phonomime
