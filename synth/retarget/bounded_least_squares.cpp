@@ -17,6 +17,8 @@ constexpr double kGradientTolerance = 1e-12;
 // as one of their combinations.
 constexpr double kDependence = 1e-12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Exchanges that do not lessen the number of unknowns at the wrong place, before one gives up.
+constexpr int kPatience = 2;
 
 } // namespace
 
@@ -35,13 +37,14 @@ BoundedLeastSquares::BoundedLeastSquares(Eigen::MatrixXd gram, Eigen::VectorXd l
   rejected_.resize(static_cast<std::size_t>(n));
   free_.reserve(static_cast<std::size_t>(n));
   scratch_.resize(n);
+  inverse_.resize(n);
   start_cold();
 }
 
 void BoundedLeastSquares::start_cold() {
   x_ = lower_;
   std::ranges::fill(states_, State::at_lower);
-  free_.clear();
+  keep_free(0);
 }
 
 void BoundedLeastSquares::start_from(const Eigen::Ref<const Eigen::VectorXd>& x) {
@@ -49,7 +52,7 @@ void BoundedLeastSquares::start_from(const Eigen::Ref<const Eigen::VectorXd>& x)
     throw InternalError({.what = "a start does not fit the least squares problem"});
   }
   x_ = x.cwiseMax(lower_).cwiseMin(upper_);
-  free_.clear();
+  keep_free(0);
   for (int i = 0; i < unknown_count(); ++i) {
     State& state = states_[static_cast<std::size_t>(i)];
     state = x_[i] <= lower_[i]   ? State::at_lower
@@ -62,15 +65,21 @@ void BoundedLeastSquares::start_from(const Eigen::Ref<const Eigen::VectorXd>& x)
   }
 }
 
-// The row of R that an unknown would add, into scratch_ and, at its end, the root of what is left
-// of the column. False where it depends on the free ones.
+// Leaves the first `count` columns of the factor.
+void BoundedLeastSquares::keep_free(std::size_t count) {
+  free_.resize(count);
+  clean_ = std::min(clean_, count);
+}
+
+// The column of R that an unknown would add, into scratch_ and, at its end, the root of what is
+// left of the column. False where it depends on the free ones.
 bool BoundedLeastSquares::try_factor(int unknown) {
   const auto count = static_cast<Eigen::Index>(free_.size());
   double left = gram_(unknown, unknown);
   for (Eigen::Index i = 0; i < count; ++i) {
     double value = gram_(free_[static_cast<std::size_t>(i)], unknown);
     value -= factor_.col(i).head(i).dot(scratch_.head(i));
-    value /= factor_(i, i);
+    value *= inverse_[i];
     scratch_[i] = value;
     left -= value * value;
   }
@@ -87,6 +96,8 @@ bool BoundedLeastSquares::append(int unknown) {
   }
   const auto count = static_cast<Eigen::Index>(free_.size());
   factor_.col(count).head(count + 1) = scratch_.head(count + 1);
+  inverse_[count] = 1.0 / scratch_[count];
+  clean_ += clean_ == free_.size() ? 1 : 0;
   free_.push_back(unknown);
   states_[static_cast<std::size_t>(unknown)] = State::free;
   return true;
@@ -105,6 +116,7 @@ void BoundedLeastSquares::remove(std::size_t place) {
     const double c = a / length;
     const double s = b / length;
     factor_(i, i) = length;
+    inverse_[i] = 1.0 / length;
     factor_(i + 1, i) = 0.0;
     for (Eigen::Index column = i + 1; column + 1 < count; ++column) {
       const double above = factor_(i, column);
@@ -114,16 +126,17 @@ void BoundedLeastSquares::remove(std::size_t place) {
     }
   }
   free_.erase(free_.begin() + static_cast<std::ptrdiff_t>(place));
+  clean_ = std::min(clean_, place);
 }
 
 // R'R values = values, #free.
 void BoundedLeastSquares::solve_factor(Eigen::VectorXd& values) const {
   const Eigen::Index count = values.size();
   for (Eigen::Index i = 0; i < count; ++i) {
-    values[i] = (values[i] - factor_.col(i).head(i).dot(values.head(i))) / factor_(i, i);
+    values[i] = (values[i] - factor_.col(i).head(i).dot(values.head(i))) * inverse_[i];
   }
   for (Eigen::Index i = count - 1; i >= 0; --i) {
-    values[i] /= factor_(i, i);
+    values[i] *= inverse_[i];
     values.head(i) -= values[i] * factor_.col(i).head(i);
   }
 }
@@ -251,36 +264,104 @@ void BoundedLeastSquares::release(int unknown) {
   descend(-1);
 }
 
-// R of the free unknowns in their own order, and the least over them by it.
-void BoundedLeastSquares::factor_afresh() {
-  std::vector<int> wanted = free_;
-  std::ranges::sort(wanted);
-  const std::vector<int> before = std::exchange(free_, {});
-  const Eigen::MatrixXd kept = factor_;
-  for (const int unknown : wanted) {
-    if (!append(unknown)) { // nearly dependent: the factor that led here stays
-      free_ = before;
-      factor_ = kept;
-      return;
+// R of the free unknowns in their own order, with what is there of it. False where one depends on
+// those before it.
+bool BoundedLeastSquares::factor_in_order() {
+  std::size_t place = 0;
+  bool kept = true;
+  for (int unknown = 0; unknown < unknown_count(); ++unknown) {
+    if (states_[static_cast<std::size_t>(unknown)] != State::free) {
+      continue;
+    }
+    kept = kept && place < clean_ && free_[place] == unknown;
+    if (!kept) {
+      keep_free(place);
+      if (!append(unknown)) {
+        return false;
+      }
+    }
+    ++place;
+  }
+  keep_free(place);
+  return true;
+}
+
+// The least over the free unknowns, the others at their bounds, wherever that lies.
+void BoundedLeastSquares::place_free() {
+  slope_ = right_;
+  for (int held = 0; held < unknown_count(); ++held) {
+    if (states_[static_cast<std::size_t>(held)] != State::free && x_[held] != 0.0) {
+      slope_ -= x_[held] * gram_.col(held);
     }
   }
   const auto count = static_cast<Eigen::Index>(free_.size());
   change_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    change_[i] = right_[free_[static_cast<std::size_t>(i)]];
-  }
-  for (int held = 0; held < unknown_count(); ++held) {
-    if (states_[static_cast<std::size_t>(held)] == State::free || x_[held] == 0.0) {
-      continue;
-    }
-    for (Eigen::Index i = 0; i < count; ++i) {
-      change_[i] -= gram_(free_[static_cast<std::size_t>(i)], held) * x_[held];
-    }
+    change_[i] = slope_[free_[static_cast<std::size_t>(i)]];
   }
   solve_factor(change_);
   for (Eigen::Index i = 0; i < count; ++i) {
     const int unknown = free_[static_cast<std::size_t>(i)];
-    x_[unknown] = std::clamp(change_[i], lower_[unknown], upper_[unknown]);
+    x_[unknown] = change_[i];
+    slope_ -= change_[i] * gram_.col(unknown);
+  }
+}
+
+// Puts every unknown that is out of its bounds at them, and sets every one free that the cost wants
+// inside: how many.
+int BoundedLeastSquares::exchange_wrong() {
+  int wrong = 0;
+  for (int i = 0; i < unknown_count(); ++i) {
+    State& state = states_[static_cast<std::size_t>(i)];
+    if (state == State::free) {
+      if (x_[i] < lower_[i] || x_[i] > upper_[i]) {
+        stop_at_bound(i, x_[i] < lower_[i] ? State::at_lower : State::at_upper);
+        ++wrong;
+      }
+    } else if ((state == State::at_lower ? slope_[i] : -slope_[i]) >
+               kGradientTolerance * scale_ * lengths_[i]) {
+      state = State::free;
+      ++wrong;
+    }
+  }
+  steps_ += wrong;
+  return wrong;
+}
+
+// Exchanges whole sets of unknowns until none is at the wrong place: the least then, mostly after
+// a few rounds. False where that does not get anywhere, with the unknowns anywhere.
+bool BoundedLeastSquares::exchange_all() {
+  int fewest = std::numeric_limits<int>::max();
+  for (int patience = kPatience; patience > 0;) {
+    if (!factor_in_order()) {
+      return false;
+    }
+    place_free();
+    const int wrong = exchange_wrong();
+    if (wrong == 0) {
+      return true;
+    }
+    patience = wrong < fewest ? kPatience : patience - 1;
+    fewest = std::min(fewest, wrong);
+  }
+  return false;
+}
+
+// The active-set method proper.
+void BoundedLeastSquares::step_by_step() {
+  descend(-1);
+  // Each step lowers the cost, so that no set of free unknowns comes twice; the limit is for
+  // rounding.
+  const int limit = steps_ + 100 + 20 * static_cast<int>(unknown_count());
+  for (int unknown = worst_at_bound(); unknown >= 0 && steps_ < limit; unknown = worst_at_bound()) {
+    release(unknown);
+  }
+  const Eigen::VectorXd found = x_;
+  if (factor_in_order()) { // else free ones are nearly dependent: what led here stays
+    place_free();
+    x_ = x_.cwiseMax(lower_).cwiseMin(upper_);
+  } else {
+    start_from(found);
   }
 }
 
@@ -297,14 +378,11 @@ const Eigen::VectorXd& BoundedLeastSquares::solve(const Eigen::Ref<const Eigen::
       scale_ = std::max({scale_, std::abs(right_[i]) / lengths_[i], lengths_[i] * std::abs(x_[i])});
     }
   }
-  descend(-1);
-  // Each step lowers the cost, so that no set of free unknowns comes twice; the limit is for
-  // rounding.
-  const int limit = 100 + 20 * static_cast<int>(unknown_count());
-  for (int unknown = worst_at_bound(); unknown >= 0 && steps_ < limit; unknown = worst_at_bound()) {
-    release(unknown);
+  start_ = x_;
+  if (!exchange_all()) {
+    start_from(start_);
+    step_by_step();
   }
-  factor_afresh();
   return x_;
 }
 
