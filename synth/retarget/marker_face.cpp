@@ -6,13 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace phonomime {
 namespace {
-
-// A fit that leaves more than this share of the markers' spread is of another face or numbering.
-constexpr double kWorstFit = 0.25;
 
 // #channels (x, y, z of each marker in turn) as #markers by 3.
 Points as_points(const Eigen::VectorXd& channels) {
@@ -54,7 +49,8 @@ MarkerFace::MarkerFace(FaceSource source, const Layout& layout,
   report_.unknown_markers = std::move(source.markers.unknown);
 
   const Points reference = as_points(reference_pose_);
-  place_on(reference);
+  report_.placement = place_on_markers(mesh_, marker_vertices_, reference);
+  mesh_.positions = report_.placement.apply(mesh_.positions);
   OpeningFill fill = find_opening_fill(mesh_, mesh_.positions, layout_, marker_vertices_);
   report_.cut = std::move(fill.openings);
   mesh_ = without_triangles(std::move(mesh_), fill.filling);
@@ -69,28 +65,6 @@ MarkerFace::MarkerFace(FaceSource source, const Layout& layout,
   }
   sort_inner();
   bring_to_reference(reference);
-}
-
-void MarkerFace::place_on(const Points& reference) {
-  std::vector<int> placed; // groups that have a vertex
-  for (int g = 0; g < layout_.group_count(); ++g) {
-    if (marker_vertices_[static_cast<std::size_t>(g)] >= 0) {
-      placed.push_back(g);
-    }
-  }
-  const Points from = rows_of(mesh_.positions, marker_vertices_, placed);
-  const Points to = reference(placed, Eigen::all);
-  report_.placement = fit_similarity(from, to);
-  const Points centred = to.rowwise() - to.colwise().mean();
-  const double spread = std::sqrt(centred.rowwise().squaredNorm().mean());
-  if (!(report_.placement.scale > 0.0) || !(report_.placement.rms <= kWorstFit * spread)) {
-    throw InputError({.where = mesh_.source,
-                      .what = "the markers' vertices do not have the shape of the markers at rest",
-                      .expected = fmt::format("a similarity within {:.1f} mm", kWorstFit * spread),
-                      .got = fmt::format("{:.1f} mm", report_.placement.rms),
-                      .remedy = "Check the vertex numbers in the table of markers."});
-  }
-  mesh_.positions = report_.placement.apply(mesh_.positions);
 }
 
 std::vector<int> MarkerFace::groups_on_face(Region region) const {

@@ -72,7 +72,6 @@ public:
 
 private:
   Points displacements(const Eigen::VectorXd& channels) const;
-  void place_on(const Points& reference);
   void sort_inner();
   void bring_to_reference(const Points& reference);
   std::vector<int> groups_on_face(Region region) const;

@@ -3,6 +3,8 @@
 
 #include "synth/retarget/triangle_mesh.h"
 
+#include <span>
+
 namespace phonomime {
 
 // y = scale * rotation * x + translation.
@@ -19,5 +21,12 @@ struct Similarity {
 // least squares (Umeyama 1991). Both #points by 3. Throws InternalError where they differ in size
 // or are fewer than 3.
 Similarity fit_similarity(const Points& from, const Points& to);
+
+// The similarity that brings a face onto the markers at rest. `marker_vertices`: #markers, into the
+// mesh's vertices, -1 = not on this face. `reference`: #markers by 3, mm. Throws InputError, which
+// names the mesh, where what is left of the distances is too large a share of the markers' spread:
+// another face, or other vertex numbers.
+Similarity place_on_markers(const TriangleMesh& mesh, std::span<const int> marker_vertices,
+                            const Points& reference);
 
 } // namespace phonomime
