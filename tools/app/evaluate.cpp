@@ -6,6 +6,7 @@
 #include "db/types/file_io.h"
 #include "db/types/sentence_key.h"
 #include "db/types/text.h"
+#include "tools/app/evaluate_emotions.h"
 #include "tools/app/evaluate_sizes.h"
 #include "tools/app/folds.h"
 #include "tools/app/held_out.h"
@@ -55,7 +56,8 @@ public:
       : options_(options), progress_(progress), corpus_(read_corpus(options.import.corpus)),
         methods_(find_methods(options.methods)),
         showcase_(std::string(methods_.front().name), kWorstShown, kSampleShown),
-        sizes_(methods_.front(), options.seed), import_(options.import) {
+        sizes_(methods_.front(), options.seed), emotions_(methods_.front()),
+        import_(options.import) {
     import_.recordings.threads = options.synth.threads;
     evaluation_.run.corpus = corpus_.name;
     evaluation_.run.seed = options.seed;
@@ -136,6 +138,9 @@ public:
 
   EvaluateReport finish() {
     evaluation_.sizes = sizes_.points();
+    if (options_.emotions) {
+      evaluation_.emotions = emotions_.findings();
+    }
     evaluation_.run.left_out =
         static_cast<std::int64_t>(corpus_.sentences.size()) -
         static_cast<std::int64_t>(evaluation_.methods.front().sentences.size());
@@ -194,6 +199,9 @@ private:
     evaluation_.run.rate_hz = held_out.tables.begin()->second.rate_hz;
     evaluation_.run.notes.insert(evaluation_.run.notes.end(), held_out.notes.begin(),
                                  held_out.notes.end());
+    if (options_.emotions) {
+      emotions_.add(held_out, options_.synth, within(progress, "emotions"));
+    }
     speak_held_out(held_out.tables, held_out.sentences, methods_, options_.synth, progress,
                    [&](std::size_t i, SpokenSentence&& spoken) {
                      offer(held_out, held_out.sentences[i], std::move(spoken), fold);
@@ -226,6 +234,7 @@ private:
   std::vector<MethodEntry> methods_;
   Showcase showcase_;
   SizeStudy sizes_;
+  EmotionStudy emotions_;
   ImportOptions import_;
   Evaluation evaluation_;
 };

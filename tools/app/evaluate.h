@@ -28,6 +28,7 @@ struct EvaluateOptions {
       methods;                   // names of method_table(); empty: all. The first is the main one
   std::filesystem::path against; // JSON report of an earlier run to compare with
   bool sizes = false;            // the main method again with growing parts of the recordings
+  bool emotions = false;         // whether the emotion that is asked for is recognised
 
   // Throws UsageError, which says what is out of range or does not go together.
   void validate() const;

@@ -29,12 +29,13 @@ struct Speaker {
 std::map<std::string, Speaker> make_speakers(const std::map<std::string, MotionTable>& tables,
                                              std::span<const MethodEntry> methods,
                                              const SynthOptions& options, std::size_t workers,
-                                             const Progress& progress) {
+                                             const Progress& progress,
+                                             const std::function<void(CostWeights&)>& change) {
   std::map<std::string, Speaker> speakers;
   std::int64_t made = 0;
   const auto total = static_cast<std::int64_t>(tables.size() * methods.size());
   for (const auto& [name, table] : tables) {
-    const MethodContext context{
+    MethodContext context{
         .table = table,
         .weights =
             read_weights(options, default_cost_weights(table, options.cost.value_or(kUsualCost))),
@@ -43,6 +44,10 @@ std::map<std::string, Speaker> make_speakers(const std::map<std::string, MotionT
         .concat = concat_options(options),
         .threads = options.threads,
         .workers = workers};
+    if (change) {
+      change(context.weights);
+      change(context.paper_weights);
+    }
     Speaker& speaker = speakers[name];
     speaker.setup = {
         .layout = table.layout, .rate_hz = table.rate_hz, .reference_pose = table.reference_pose};
@@ -92,11 +97,12 @@ void speak_held_out(const std::map<std::string, MotionTable>& tables,
                     std::span<const ImportedSentence> sentences,
                     std::span<const MethodEntry> methods, const SynthOptions& options,
                     const Progress& progress,
-                    const std::function<void(std::size_t sentence, SpokenSentence&&)>& take) {
+                    const std::function<void(std::size_t sentence, SpokenSentence&&)>& take,
+                    const std::function<void(CostWeights&)>& change) {
   const std::size_t workers =
       std::clamp<std::size_t>(sentences.size(), 1, worker_count(options.threads));
   std::map<std::string, Speaker> speakers =
-      make_speakers(tables, methods, options, workers, progress);
+      make_speakers(tables, methods, options, workers, progress, change);
   std::vector<std::exception_ptr> failures(sentences.size());
   std::atomic<bool> failed = false;
   std::mutex mutex;

@@ -52,6 +52,8 @@ void add_evaluate(CLI::App& app, CallWords& words) {
       ->delimiter(',');
   verb->add_flag("--sizes", options.sizes,
                  "Also: the main method with growing parts of the recordings");
+  verb->add_flag("--emotions", options.emotions,
+                 "Also: how often the emotion that was asked for is recognised in the motion");
   verb->add_option("--against", options.against,
                    "JSON report of an earlier run: what has become better or worse")
       ->type_name("FILE");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "db/types/layout.h"
+#include "tools/evaluate/emotion_findings.h"
 #include "tools/evaluate/measures.h"
 
 #include <array>
@@ -77,6 +78,7 @@ struct Evaluation {
   std::vector<MethodTables> tables;  // #methods
   std::map<std::string, ContactRange> contact_ranges;
   std::vector<SizePoint> sizes;
+  std::optional<EmotionFindings> emotions;
   std::string main_method; // the one that the report shows frame by frame; empty: the first
 };
 

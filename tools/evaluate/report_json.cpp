@@ -117,6 +117,26 @@ Json sizes_to_json(const std::vector<SizePoint>& sizes) {
   return json;
 }
 
+Json emotions_to_json(const EmotionFindings& findings) {
+  Json json;
+  json["trials"] = Json::array();
+  for (const EmotionTrial& trial : findings.trials) {
+    json["trials"].push_back({{"id", trial.id},
+                              {"description", trial.description},
+                              {"sentences", trial.sentences},
+                              {"recognised", trial.recognised},
+                              {"share", number(trial.share())},
+                              {"share_by_movement_too", number(trial.share_moving())},
+                              {"closure_recall", number(trial.closures)},
+                              {"taken_for", trial.taken_for}});
+  }
+  json["closures"] = {{"pairs", findings.closure_pairs},
+                      {"change", number(findings.closure_change)},
+                      {"standard_error", number(findings.closure_change_error)},
+                      {"p", findings.closure_p}};
+  return json;
+}
+
 Json comparison_to_json(const Comparison& comparison) {
   Json json;
   json["against"] = comparison.source;
@@ -179,6 +199,8 @@ Json report_json(const Evaluation& evaluation, const std::optional<Comparison>& 
                                              evaluation.tables.at(m), with_sentences));
   }
   json["sizes"] = sizes_to_json(evaluation.sizes);
+  json["emotion_recognition"] =
+      evaluation.emotions ? emotions_to_json(*evaluation.emotions) : Json(nullptr);
   json["comparison"] = comparison ? comparison_to_json(*comparison) : Json(nullptr);
   return json;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -189,6 +190,44 @@ std::string size_table(const Evaluation& evaluation) {
          table.text();
 }
 
+std::string emotion_table(const Evaluation& evaluation) {
+  if (!evaluation.emotions) {
+    return {};
+  }
+  const EmotionFindings& findings = *evaluation.emotions;
+  std::set<std::string> emotions;
+  for (const EmotionTrial& trial : findings.trials) {
+    for (const auto& [asked, heard] : trial.taken_for) {
+      emotions.insert(asked);
+    }
+  }
+  std::vector<std::string> header = {"spoken", "sentences", "recognised", "by movement too",
+                                     "closures"};
+  header.insert(header.end(), emotions.begin(), emotions.end());
+  TextTable table(header);
+  for (const EmotionTrial& trial : findings.trials) {
+    std::vector<std::string> row = {trial.id, std::to_string(trial.sentences),
+                                    shown(trial.share(), 3), shown(trial.share_moving(), 3),
+                                    shown(trial.closures, 3)};
+    for (const std::string& emotion : emotions) {
+      row.push_back(shown(trial.share_of(emotion), 3));
+    }
+    table.add(row);
+  }
+  std::string text = "\nEmotions recognised: share of sentences that the nearest centroid of the "
+                     "training recordings takes for what was asked for: by pose, by pose and "
+                     "movement, by pose in each emotion\n" +
+                     table.text();
+  for (const EmotionTrial& trial : findings.trials) {
+    text += fmt::format("  {}: {}\n", trial.id, trial.description);
+  }
+  return text + fmt::format("  closure recall where another emotion is asked for, less that where "
+                            "it is not: {} (standard error {}, p = {:.2g}, {} pairs)\n",
+                            shown(findings.closure_change, 4),
+                            shown(findings.closure_change_error, 4), findings.closure_p,
+                            findings.closure_pairs);
+}
+
 std::string worst_sentences(const Evaluation& evaluation) {
   const std::size_t main = main_method_index(evaluation);
   const MethodResult& method = evaluation.methods[main];
@@ -266,7 +305,7 @@ std::string evaluation_text(const Evaluation& evaluation,
   return text + measure_table(evaluation) + part_table(evaluation, "emotion", main.by_emotion) +
          part_table(evaluation, "fold", main.by_fold) + phoneme_table(evaluation) +
          region_table(evaluation) + group_table(evaluation) + size_table(evaluation) +
-         worst_sentences(evaluation) + definitions(evaluation);
+         emotion_table(evaluation) + worst_sentences(evaluation) + definitions(evaluation);
 }
 
 } // namespace phonomime

@@ -124,6 +124,32 @@ class EvaluateTest(cli.CliTest):
         for emotion, text in spoken:
             self.assertIn(({"neutral": "anger", "anger": "neutral"}[emotion], text), spoken)
 
+    def test_emotions_are_recognised_where_they_are_asked_for(self):
+        """Anger raises the cheek and the chin by what no other recording shows."""
+        corpus = tiny_corpus.Corpus(self.folder / "moods", name="moods", sentences=10, emotions=("neutral", "anger"))
+        for sentence in corpus.sentences:
+            frames = tiny_corpus.motion_frames(sentence.rows, seed=sentence.seed)
+            if sentence.emotion == "anger":
+                names = list(tiny_corpus.MARKERS)
+                frames = [tuple((x, y + 4 * (name in ("cheek", "chin")), z) for name, (x, y, z) in zip(names, frame))
+                          for frame in frames]
+            sentence.motion = tiny_corpus.c3d_bytes(list(tiny_corpus.MARKERS), frames)
+        report = self.folds(self.folder, "--emotions", "--methods", "default", "--blend", "2", corpus=corpus.write())
+        found = {trial["id"]: trial for trial in report["emotion_recognition"]["trials"]}
+        self.assertEqual(list(found), ["recordings", "default", "default, changed", "default, alpha6 = 0", "paper",
+                                       "paper, changed", "paper, alpha6 = 0"])
+        for name in ("recordings", "default", "default, changed", "paper", "paper, changed"):
+            self.assertEqual((found[name]["sentences"], found[name]["recognised"]), (20, 20), name)
+            self.assertEqual(found[name]["taken_for"], {"anger": {"anger": 10}, "neutral": {"neutral": 10}})
+        self.assertLess(found["paper, alpha6 = 0"]["recognised"], 20)
+        self.assertEqual(report["emotion_recognition"]["closures"]["pairs"],
+                         sum(sentence["values"]["closure_recall"] is not None
+                             for sentence in report["methods"][0]["sentences"]))
+        self.assertEqual(self.folds(self.folder, "--emotions", "--methods", "default", "--blend", "2", "--threads", "1",
+                                    corpus=corpus.folder), report)
+        self.assertRefused(cli.BAD_INPUT, ["one emotion"], "evaluate", self.corpus, "--folds", "2", "--emotions",
+                           "--quiet")
+
     def test_calls_that_are_refused(self):
         report = self.folder / "report.json"
         report.write_text("of an earlier call")

@@ -36,6 +36,7 @@ drawHead();
 drawMethods();
 drawComparison();
 drawSizes();
+drawEmotions();
 setUpSentence();
 setUpPhonemes();
 setUpPlaces();

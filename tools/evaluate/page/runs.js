@@ -79,3 +79,27 @@ function drawSizes() {
   sizePlot('diphones', 'share of those asked for', 3, of((size) => size.diphone_coverage), 'var(--m2)');
   sizePlot('triphones', 'share of those asked for', 3, of((size) => size.triphone_coverage), 'var(--m2)');
 }
+
+function drawEmotions() {
+  const found = report.emotion_recognition;
+  if (!found) return;
+  show('emotions');
+  const emotions = [...new Set(found.trials.flatMap((trial) => Object.keys(trial.taken_for)))].sort();
+  const body = element('tbody');
+  for (const trial of found.trials) {
+    const row = element('tr', {}, element('td', { title: trial.description }, trial.id), element('td', {}, String(trial.sentences)),
+      element('td', {}, number(trial.share, 3)),
+      element('td', {}, number(trial.share_by_movement_too, 3)), element('td', {}, number(trial.closure_recall, 3)));
+    for (const emotion of emotions) {
+      const heard = trial.taken_for[emotion] ?? {};
+      const all = Object.values(heard).reduce((sum, count) => sum + count, 0);
+      const cell = element('td', {}, all ? number((heard[emotion] ?? 0) / all, 3) : '-');
+      cell.title = `asked for ${emotion}: ${Object.entries(heard).map(([name, count]) => `${name} ${count}`).join(', ')}`;
+      row.append(cell);
+    }
+    body.append(row);
+  }
+  byId('emotion-table').replaceChildren(tableHead(['spoken', 'sentences', 'recognised', 'by movement too', 'closures', ...emotions]), body);
+  const { change, standard_error: error, p, pairs } = found.closures;
+  byId('emotion-closures').textContent = `Closure recall where another emotion is asked for, less that where it is not: ${number(change, 4)} (standard error ${number(error, 4)}, p = ${number(p, 2)}, ${pairs} pairs).`;
+}
