@@ -8,9 +8,12 @@
 
 namespace phonomime {
 
-FrameVectors::FrameVectors(const PcaModel& pca, int bundle)
-    : origin_(pca.basis.transpose() * pca.mean), outside_((pca.mean - pca.basis * origin_).norm()),
-      bundle_(bundle) {
+FrameVectors::FrameVectors(const PcaModel& pca, int bundle, StyleVectors holds)
+    : origin_(Eigen::VectorXd::Zero(pca.dimension_count())), bundle_(bundle) {
+  if (holds == StyleVectors::channels) {
+    origin_ = pca.basis.transpose() * pca.mean;
+  }
+  constant_ = (pca.mean - pca.basis * origin_).norm();
   if (bundle < 1 || bundle % 2 == 0) {
     throw InputError({.where = "style model",
                       .what = "a bundle of frames has no middle",
@@ -22,7 +25,7 @@ FrameVectors::FrameVectors(const PcaModel& pca, int bundle)
 void FrameVectors::write_frame(const Eigen::Ref<const Eigen::VectorXd>& coefficients,
                                Eigen::Ref<Eigen::VectorXd> vector) const {
   vector.head(dimension_count()) = origin_ + coefficients;
-  vector[dimension_count()] = outside_;
+  vector[dimension_count()] = constant_;
 }
 
 Eigen::MatrixXd FrameVectors::bundles(const Eigen::Ref<const FrameMatrixD>& coefficients) const {

@@ -7,16 +7,24 @@
 
 namespace phonomime {
 
-// Motion frames as the vectors of a style model. A style model must not be centred (DESIGN section
-// 7), but PCA coefficients are: a frame's vector is its channels' place, E11, in the orthonormal
-// basis of the PCA and of what of the mean lies outside it:
-//   [basis' mean + coefficients; length of (mean - basis basis' mean)]
-// Distances, products and hence bilinear models are those of the channels themselves, in a tenth of
-// the numbers. n frames in a row make a bundle (T2.14), the earliest on top.
+// What a frame's vector holds. A style model must not be centred (DESIGN section 7), and PCA
+// coefficients are; so both have a last number that stays.
+enum class StyleVectors {
+  // Its channels' place, E11, in the orthonormal basis of the PCA and of what of the mean lies
+  // outside it: [basis' mean + coefficients; length of (mean - basis basis' mean)]. Distances,
+  // products and hence bilinear models are those of the channels, in a tenth of the numbers.
+  channels,
+  // [coefficients; length of the mean]: distances are the same, but the mean face counts as a
+  // movement of its own.
+  coefficients,
+};
+
+// Motion frames as the vectors of a style model. n frames in a row make a bundle (T2.14), the
+// earliest on top.
 class FrameVectors {
 public:
   // `bundle`: n, odd and positive. Throws InputError.
-  FrameVectors(const PcaModel& pca, int bundle);
+  FrameVectors(const PcaModel& pca, int bundle, StyleVectors holds = StyleVectors::channels);
 
   int bundle() const { return bundle_; }
   Eigen::Index dimension_count() const { return origin_.size(); }
@@ -35,8 +43,8 @@ public:
   FrameMatrixD coefficients(const Eigen::Ref<const Eigen::MatrixXd>& middles) const;
 
 private:
-  Eigen::VectorXd origin_; // basis' mean
-  double outside_ = 0.0;
+  Eigen::VectorXd origin_; // where coefficients of 0 are
+  double constant_ = 0.0;  // the last number
   int bundle_;
 };
 

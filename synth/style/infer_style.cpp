@@ -2,7 +2,6 @@
 #include "synth/style/infer_style.h"
 
 #include "db/types/errors.h"
-#include "synth/style/content_solver.h"
 
 #include <cmath>
 
@@ -27,19 +26,59 @@ void check(const SymmetricModel& model, const Eigen::Ref<const Eigen::MatrixXd>&
   }
 }
 
-// T2.12 for all frames together: what each dimension of the style would show of the contents, one
-// frame below the other, fitted to the frames.
-Eigen::VectorXd fit_expression(const SymmetricModel& model,
-                               const Eigen::Ref<const Eigen::MatrixXd>& y,
-                               const Eigen::MatrixXd& contents) {
-  Eigen::MatrixXd shown(y.size(), model.style_size());
-  for (Eigen::Index i = 0; i < model.style_size(); ++i) {
-    const Eigen::MatrixXd one =
-        model.bases.middleRows(i * model.vector_size, model.vector_size) * contents;
-    shown.col(i) = one.reshaped();
+// T2.12 and T2.13 by their normal equations, whose sums over frames and over the rows of a vector
+// are made once: an iteration then works on matrices of I and J.
+class Alternation {
+public:
+  Alternation(const SymmetricModel& model, const Eigen::Ref<const Eigen::MatrixXd>& y) {
+    for (Eigen::Index i = 0; i < model.style_size(); ++i) {
+      const auto one = model.bases.middleRows(i * model.vector_size, model.vector_size);
+      seen_.emplace_back(one.transpose() * y);
+      for (Eigen::Index j = 0; j < model.style_size(); ++j) {
+        squares_.emplace_back(one.transpose() *
+                              model.bases.middleRows(j * model.vector_size, model.vector_size));
+      }
+    }
   }
-  return shown.completeOrthogonalDecomposition().solve(Eigen::VectorXd(y.reshaped()));
-}
+
+  // T2.12 for all frames together; contents: J by #frames.
+  Eigen::VectorXd expression(const Eigen::MatrixXd& contents) const {
+    const std::size_t count = seen_.size();
+    const Eigen::MatrixXd all = contents * contents.transpose();
+    Eigen::MatrixXd normal(seen_.size(), seen_.size());
+    Eigen::VectorXd right(seen_.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      right[row] = seen_[i].cwiseProduct(contents).sum();
+      for (std::size_t j = 0; j < count; ++j) {
+        normal(row, static_cast<Eigen::Index>(j)) = squares_[i * count + j].cwiseProduct(all).sum();
+      }
+    }
+    return normal.completeOrthogonalDecomposition().solve(right);
+  }
+
+  // T2.13, with the ridge and the mean content m of ContentSolver.
+  Eigen::MatrixXd contents(const Eigen::VectorXd& expression, const Eigen::VectorXd& mean_content,
+                           double ridge) const {
+    const std::size_t count = seen_.size();
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(mean_content.size(), mean_content.size());
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(mean_content.size(), seen_.front().cols());
+    for (std::size_t i = 0; i < count; ++i) {
+      const double weight = expression[static_cast<Eigen::Index>(i)];
+      right += weight * seen_[i];
+      for (std::size_t j = 0; j < count; ++j) {
+        normal += weight * expression[static_cast<Eigen::Index>(j)] * squares_[i * count + j];
+      }
+    }
+    right.colwise() -= normal * mean_content;
+    normal.diagonal().array() += ridge;
+    return normal.completeOrthogonalDecomposition().solve(right).colwise() + mean_content;
+  }
+
+private:
+  std::vector<Eigen::MatrixXd> squares_; // I I of J by J: W^i' W^j
+  std::vector<Eigen::MatrixXd> seen_;    // I of J by #frames: W^i' y
+};
 
 } // namespace
 
@@ -48,12 +87,12 @@ InferredStyle infer_style(const SymmetricModel& model, const Eigen::Ref<const Ei
   check(model, y);
   const double size = std::sqrt(static_cast<double>(y.size()));
   const double whole = y.norm() / size;
+  const Alternation alternation(model, y);
   InferredStyle found{.contents = model.mean_content.replicate(1, y.cols())};
   for (int iteration = 0; iteration < options.most_iterations && !found.converged; ++iteration) {
-    found.expression = fit_expression(model, y, found.contents);
-    const Eigen::MatrixXd basis = model.basis(found.expression);
-    found.contents = ContentSolver(basis, model.mean_content).solve(y, options.ridge);
-    found.convergence.push_back((y - basis * found.contents).norm() / size);
+    found.expression = alternation.expression(found.contents);
+    found.contents = alternation.contents(found.expression, model.mean_content, options.ridge);
+    found.convergence.push_back((y - model.basis(found.expression) * found.contents).norm() / size);
     if (iteration < options.hold_first) {
       found.contents.row(0).setConstant(model.mean_content[0]);
     } else if (iteration > options.hold_first) {

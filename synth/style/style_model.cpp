@@ -4,7 +4,6 @@
 #include "db/types/errors.h"
 #include "db/types/parallel_for.h"
 #include "synth/style/mixture.h"
-#include "synth/style/restyler.h"
 
 #include <algorithm>
 
@@ -34,6 +33,19 @@ ChosenDimensions choose(std::span<const StackSummary> parts, const FrameVectors&
   return choose_dimensions(parts, tried);
 }
 
+ChosenUnknown choose_unknown_of(std::span<const StyleStack> parts,
+                                std::span<const StackSummary> summaries,
+                                const StyleOptions& options) {
+  UnknownChoiceOptions tried{.threads = options.threads};
+  if (options.style_size) {
+    tried.style_sizes = {*options.style_size};
+  }
+  if (options.unknown_content_size) {
+    tried.content_sizes = {*options.unknown_content_size};
+  }
+  return choose_unknown(parts, summaries, tried);
+}
+
 void warn_of_range(const StyleModel& model, const Eigen::MatrixXd& wanted,
                    std::vector<std::string>& warnings) {
   for (const ValidRange& range : model.valid) {
@@ -55,6 +67,11 @@ void StyleOptions::validate() const {
   check_range("the number of content dimensions is out of range",
               !content_size || *content_size >= 1, "1 or more",
               content_size ? std::to_string(*content_size) : "");
+  check_range("the number of style dimensions is out of range", !style_size || *style_size >= 1,
+              "1 or more", style_size ? std::to_string(*style_size) : "");
+  check_range("the number of content dimensions of unknown styles is out of range",
+              !unknown_content_size || *unknown_content_size >= 1, "1 or more",
+              unknown_content_size ? std::to_string(*unknown_content_size) : "");
   check_range("the ridge is out of range", !ridge || *ridge >= 0.0, "0 or more",
               ridge ? fmt::format("{}", *ridge) : "");
   check_range("the number of parts of a cross-validation is out of range", training.parts >= 2,
@@ -63,7 +80,7 @@ void StyleOptions::validate() const {
 
 TrainedStyle train_style(const MotionTable& table, const StyleOptions& options) {
   options.validate();
-  const FrameVectors vectors(table.pca, options.bundle);
+  const FrameVectors vectors(table.pca, options.bundle, options.vectors);
   StyleTraining training = gather_styles(table, vectors, options.training);
   TrainedStyle trained{.sentences = std::move(training.sentences),
                        .nodes = training.nodes,
@@ -83,6 +100,7 @@ TrainedStyle train_style(const MotionTable& table, const StyleOptions& options) 
   Eigen::Index content_size = options.content_size.value_or(0);
   StyleModel& model = trained.model;
   model.neutral = options.training.reference;
+  model.vectors = options.vectors;
   model.bundle = options.bundle;
   model.ridge = options.ridge.value_or(0.0);
   if (!options.content_size || !options.ridge) {
@@ -91,11 +109,14 @@ TrainedStyle train_style(const MotionTable& table, const StyleOptions& options) 
     model.ridge = trained.chosen->best.ridge;
   }
   model.known = fit_asymmetric(whole, content_size);
-  const Eigen::Index style_size = options.style_size > 0 ? options.style_size : whole.style_count();
-  model.unknown = fit_symmetric(
-      whole, {.style_size = style_size,
-              .content_size = std::min({options.unknown_content_size, whole.factor.cols(),
-                                        style_size * whole.vector_size})});
+  SymmetricOptions unknown{.style_size = options.style_size.value_or(0),
+                           .content_size = options.unknown_content_size.value_or(0)};
+  if (!options.style_size || !options.unknown_content_size) {
+    trained.chosen_unknown = choose_unknown_of(training.parts, parts, options);
+    unknown.style_size = trained.chosen_unknown->best.style_size;
+    unknown.content_size = trained.chosen_unknown->best.content_size;
+  }
+  model.unknown = fit_symmetric(whole, unknown);
   if (const auto aperture = CoefficientAperture::of(table.layout, table.pca)) {
     model.contacts = recorded_contacts(table, *aperture);
   }
@@ -104,31 +125,38 @@ TrainedStyle train_style(const MotionTable& table, const StyleOptions& options) 
   return trained;
 }
 
-StyledMotion apply_style(const StyleModel& model, const Layout& layout, const PcaModel& pca,
-                         const StyleRequest& request) {
-  const FrameVectors vectors(pca, model.bundle);
-  const Restyler restyler(model.known, vectors, model.ridge);
+MotionStyler::MotionStyler(const StyleModel& model, const Layout& layout, const PcaModel& pca)
+    : model_(&model), pca_(&pca),
+      restyler_(model.known, FrameVectors(pca, model.bundle, model.vectors), model.ridge),
+      aperture_(CoefficientAperture::of(layout, pca)) {}
+
+StyledMotion MotionStyler::apply(const StyleRequest& request) const {
   const Eigen::MatrixXd shown = glide(request.shown, request.rate_hz, request.glide_s);
   const Eigen::MatrixXd wanted = glide(request.wanted, request.rate_hz, request.glide_s);
   StyledMotion styled;
-  warn_of_range(model, wanted, styled.warnings);
-  styled.coefficients = restyler.restyle(request.coefficients, shown, wanted);
-  const auto aperture = CoefficientAperture::of(layout, pca);
-  if (aperture && styled.coefficients != request.coefficients) {
-    const std::vector<Contact> contacts =
-        contacts_to_hold(request.phonemes, model.contacts, *aperture, request.coefficients);
-    HeldContacts held =
-        hold_contacts(styled.coefficients, request.rate_hz, contacts, *aperture, pca.variance);
-    styled.coefficients = std::move(held.coefficients);
-    styled.contacts = static_cast<int>(contacts.size());
-    styled.contacts_moved = held.moved;
-    styled.contacts_left = held.left;
-    if (held.left > 0) {
-      styled.warnings.push_back(fmt::format("{} of {} contacts of the lips could not be kept",
-                                            held.left, contacts.size()));
-    }
+  warn_of_range(*model_, wanted, styled.warnings);
+  styled.coefficients = restyler_.restyle(request.coefficients, shown, wanted);
+  if (!aperture_ || styled.coefficients == request.coefficients) {
+    return styled;
+  }
+  const std::vector<Contact> contacts =
+      contacts_to_hold(request.phonemes, model_->contacts, *aperture_, request.coefficients);
+  HeldContacts held =
+      hold_contacts(styled.coefficients, request.rate_hz, contacts, *aperture_, pca_->variance);
+  styled.coefficients = std::move(held.coefficients);
+  styled.contacts = static_cast<int>(contacts.size());
+  styled.contacts_moved = held.moved;
+  styled.contacts_left = held.left;
+  if (held.left > 0) {
+    styled.warnings.push_back(
+        fmt::format("{} of {} contacts of the lips could not be kept", held.left, contacts.size()));
   }
   return styled;
+}
+
+StyledMotion apply_style(const StyleModel& model, const Layout& layout, const PcaModel& pca,
+                         const StyleRequest& request) {
+  return MotionStyler(model, layout, pca).apply(request);
 }
 
 } // namespace phonomime

@@ -4,7 +4,9 @@
 #include "db/types/motion_table.h"
 #include "synth/style/bilinear_model.h"
 #include "synth/style/choose_dimensions.h"
+#include "synth/style/choose_unknown.h"
 #include "synth/style/contacts.h"
+#include "synth/style/restyler.h"
 #include "synth/style/style_training.h"
 #include "synth/style/valid_range.h"
 
@@ -16,12 +18,13 @@ namespace phonomime {
 
 struct StyleOptions {
   TrainingOptions training;
-  int bundle = 3;                           // frames, odd (T2.14)
-  std::optional<Eigen::Index> content_size; // J of known styles; empty: by cross-validation
-  std::optional<double> ridge;              // likewise; a variance
-  Eigen::Index style_size = 0;              // I of unknown styles; 0: as many as there are styles
-  Eigen::Index unknown_content_size = 10;   // J of unknown styles (T: 8 to 10)
-  int threads = 0;                          // 0: as many as there are
+  StyleVectors vectors = StyleVectors::channels;
+  int bundle = 3;                                   // frames, odd (T2.14)
+  std::optional<Eigen::Index> content_size;         // J of known styles; empty: by cross-validation
+  std::optional<double> ridge;                      // likewise; a variance
+  std::optional<Eigen::Index> style_size;           // I of unknown styles; likewise
+  std::optional<Eigen::Index> unknown_content_size; // J of unknown styles; likewise
+  int threads = 0;                                  // 0: as many as there are
 
   // Throws UsageError, which says what is out of range.
   void validate() const;
@@ -30,6 +33,7 @@ struct StyleOptions {
 // All that a change of style needs, learned from one speaker's recordings.
 struct StyleModel {
   std::string neutral; // the style that intensity 0 is
+  StyleVectors vectors = StyleVectors::channels;
   int bundle = 3;
   double ridge = 0.0;
   AsymmetricModel known;         // for motion whose style is known
@@ -40,7 +44,9 @@ struct StyleModel {
 
 struct TrainedStyle {
   StyleModel model;
-  std::optional<ChosenDimensions> chosen; // where there was something to choose
+  // Where there was something to choose.
+  std::optional<ChosenDimensions> chosen;
+  std::optional<ChosenUnknown> chosen_unknown;
   // Of what was trained on, without the columns.
   std::vector<std::string> sentences;
   std::int64_t nodes = 0, nodes_left_out = 0, columns = 0;
@@ -69,9 +75,24 @@ struct StyledMotion {
   std::vector<std::string> warnings;
 };
 
-// Glide, Restyler, hold_contacts, and a warning for each emotion beyond its valid range. `layout`
-// and `pca` are those of the motion. Throws InputError where the model was trained on motion of
-// another size; then nothing is changed.
+// A model made ready for motion of one layout and PCA, so that many motions cost no more than their
+// frames. Keeps pointers to `model` and `pca`.
+class MotionStyler {
+public:
+  // Throws InputError where the model was trained on motion of another size.
+  MotionStyler(const StyleModel& model, const Layout& layout, const PcaModel& pca);
+
+  // Glide, Restyler, hold_contacts, and a warning for each emotion beyond its valid range.
+  StyledMotion apply(const StyleRequest& request) const;
+
+private:
+  const StyleModel* model_;
+  const PcaModel* pca_;
+  Restyler restyler_;
+  std::optional<CoefficientAperture> aperture_;
+};
+
+// The same for a single motion.
 StyledMotion apply_style(const StyleModel& model, const Layout& layout, const PcaModel& pca,
                          const StyleRequest& request);
 

@@ -39,6 +39,19 @@ TEST(FrameVectors, LieAsTheChannelsLie) {
   EXPECT_NEAR(a.dot(b), x.dot(y), 1e-11);
 }
 
+TEST(FrameVectors, OfCoefficientsLieAsTheseLieWithTheMeanApart) {
+  const PcaModel pca = made_pca();
+  const FrameVectors vectors(pca, 1, StyleVectors::coefficients);
+  const Eigen::Vector2d first(0.3, -2.0), second(1.5, 0.25);
+  Eigen::VectorXd a(3), b(3);
+  vectors.write_frame(first, a);
+  vectors.write_frame(second, b);
+  EXPECT_EQ(a.head(2), first);
+  EXPECT_NEAR((a - b).norm(), (first - second).norm(), 1e-12);
+  EXPECT_NEAR(a.dot(b), first.dot(second) + pca.mean.squaredNorm(), 1e-11);
+  EXPECT_LT((vectors.coefficients(a) - first.transpose()).norm(), 1e-13);
+}
+
 TEST(FrameVectors, BundleNeighboursAndGiveTheMiddleBack) {
   const FrameVectors vectors(made_pca(), 3);
   const FrameMatrixD frames = MadeNumbers(9).matrix(5, 2);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/style/choose_dimensions.h"
+#include "synth/style/choose_unknown.h"
 #include "synth/style/content_solver.h"
 #include "synth/style/infer_style.h"
 #include "synth/style/mixture.h"
@@ -248,6 +249,41 @@ TEST(ChooseDimensions, GivesTheSameBytesAtAnyThreadCount) {
 TEST(ChooseDimensions, RefusesASinglePart) {
   const std::vector<StackSummary> parts(1, summaries(made_parts(0.0)).front());
   expect_error([&] { choose_dimensions(parts, {}); }, "parts to leave out");
+}
+
+TEST(ChooseUnknown, FindsTheDimensionsOfATrueModel) {
+  const double noise = 0.05;
+  const TrueModel truth(12, 2, 5, 4, 44);
+  std::vector<StyleStack> parts;
+  std::vector<StackSummary> summaries;
+  for (std::uint64_t part = 0; part < 4; ++part) {
+    parts.push_back(truth.speak(made_contents(5, 90, 60 + part), noise, 70 + part));
+    summaries.push_back(summarise(parts.back()));
+  }
+  UnknownChoiceOptions options{.content_sizes = {3, 5, 8}, .threads = 1};
+  const ChosenUnknown one = choose_unknown(parts, summaries, options);
+  ASSERT_EQ(one.tried.size(), 9U); // I 2 to 4
+  EXPECT_EQ(one.best.style_size, 2);
+  EXPECT_EQ(one.best.content_size, 5);
+  EXPECT_EQ(one.best.windows, 4 * 3 * 4); // parts, windows of 30 in 90 columns, styles
+  EXPECT_EQ(one.best.found, one.best.windows);
+  // Numbers in [-noise, noise], with those of the inference on top.
+  EXPECT_GT(one.best.error, noise / std::sqrt(3.0));
+  EXPECT_LT(one.best.error, 2.0 * noise / std::sqrt(3.0));
+  for (const UnknownChoice& choice : one.tried) {
+    EXPECT_TRUE(choice.content_size != 3 || choice.error > 2.0 * one.best.error);
+  }
+  options.threads = 3;
+  const ChosenUnknown three = choose_unknown(parts, summaries, options);
+  for (std::size_t i = 0; i < one.tried.size(); ++i) {
+    EXPECT_EQ(one.tried[i].error, three.tried[i].error);
+    EXPECT_EQ(one.tried[i].found, three.tried[i].found);
+  }
+  expect_error(
+      [&] {
+        choose_unknown({parts.data(), 1}, {summaries.data(), 1}, {});
+      },
+      "parts to leave out");
 }
 
 } // namespace phonomime::test
