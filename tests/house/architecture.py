@@ -18,13 +18,14 @@ MAY_KNOW = {
     "isomap": {"db/types"},
     **{f"synth/{stage}": {"db/types"} for stage in STAGES},
     "synth/retarget/mapping": {"db/types", "synth/retarget"},
+    "synth/retarget/keyshapes": {"db/types", "synth/retarget"},
     "synth/export": {"db/types", "synth/retarget"},
     "synth/pipeline": {"db/types", *(f"synth/{stage}" for stage in STAGES)},
     "tools/demo": {"db/types"},
     "tools/evaluate": {"db/types", "synth/search", "synth/concat", "synth/pipeline"},
     "tools/tune": {"db/types", "synth/search", "tools/evaluate"},
     "tools/app": {"db/types", "db/curation", "db/store", "db/import", "isomap", "synth/pipeline",
-                  "synth/retarget/mapping", "tools/evaluate", "tools/tune",
+                  "synth/retarget/mapping", "synth/retarget/keyshapes", "tools/evaluate", "tools/tune",
                   *(f"synth/{stage}" for stage in STAGES)},
     "tools/cli": {"db/types", "db/store", "db/import", "synth/pipeline", "tools/evaluate",
                   "tools/app"},
@@ -35,7 +36,7 @@ MAY_KNOW = {
 # for what is both read and written, and for the words of calls, which are many.
 ONE_FOLDER = {"SQLite": (re.compile(r"^(sqlite3\.h|SQLiteCpp/)"), "db/store")}
 FEW_FILES = {
-    "CGAL": (re.compile(r"^CGAL/"), 1),
+    "CGAL": (re.compile(r"^CGAL/"), 2),
     "Spectra": (re.compile(r"^Spectra/"), 1),
     "cairo": (re.compile(r"^cairo"), 1),
     "cpp-httplib": (re.compile(r"^httplib\.h"), 1),
