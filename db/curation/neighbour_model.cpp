@@ -2,6 +2,7 @@
 #include "db/curation/neighbour_model.h"
 
 #include "db/curation/robust.h"
+#include "db/types/frame_products.h"
 #include "db/types/parallel_for.h"
 
 #include <algorithm>
@@ -110,20 +111,13 @@ void NeighbourModel::add_companions(const FrameMatrixD& centred, int threads) {
   });
   // How much of two groups moves together, 0 to 1: the norm of their covariance over those of their
   // own.
+  const Eigen::MatrixXd products = frame_products(left, threads);
   Eigen::MatrixXd together(groups, groups);
-  parallel_for(groups, threads, [&](std::ptrdiff_t a) {
-    for (std::ptrdiff_t b = 0; b <= a; ++b) {
-      Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-      for (Eigen::Index k = 0; k < left.rows(); ++k) {
-        for (int i = 0; i < width_; ++i) {
-          for (int j = 0; j < width_; ++j) {
-            covariance(i, j) += left(k, a * width_ + i) * left(k, b * width_ + j);
-          }
-        }
-      }
-      together(a, b) = together(b, a) = covariance.norm();
+  for (int a = 0; a < groups; ++a) {
+    for (int b = 0; b < groups; ++b) {
+      together(a, b) = products.block(a * width_, b * width_, width_, width_).norm();
     }
-  });
+  }
   for (int group = 0; group < groups; ++group) {
     std::vector<int>& neighbours = fits_[static_cast<std::size_t>(group)].neighbours;
     std::vector<std::pair<double, int>> companions;
@@ -153,29 +147,20 @@ FrameMatrixD NeighbourModel::fit(int group, const FrameMatrixD& centred) {
         centred.middleCols(fit.neighbours[i] * width_, width_);
   }
   rows.rightCols(width_) = centred.middleCols(group * width_, width_);
-  FrameMatrixD left(rows.rows(), width_);
+  FrameMatrixD usual(rows.rows(), rows.cols()), left(rows.rows(), width_);
   std::vector<double> lengths(static_cast<std::size_t>(rows.rows()), 0.0);
   double most = std::numeric_limits<double>::infinity();
   for (int trimming = 0; trimming <= kTrimmings; ++trimming) {
-    // Sums over the frames in their order: the same on every machine.
-    FrameMatrixD moments = FrameMatrixD::Zero(inputs, inputs + width_);
-    double kept = 0.0;
+    Eigen::Index kept = 0;
     for (Eigen::Index k = 0; k < rows.rows(); ++k) {
-      if (lengths[static_cast<std::size_t>(k)] > most) {
-        continue;
-      }
-      kept += 1.0;
-      for (Eigen::Index i = 0; i < inputs; ++i) {
-        const double value = rows(k, i);
-        for (Eigen::Index j = i; j < moments.cols(); ++j) {
-          moments(i, j) += value * rows(k, j);
-        }
+      if (lengths[static_cast<std::size_t>(k)] <= most) {
+        usual.row(kept++) = rows.row(k);
       }
     }
-    Eigen::MatrixXd normal = moments.leftCols(inputs);
-    normal.triangularView<Eigen::StrictlyLower>() = normal.transpose();
-    normal.diagonal().array() += kept * noise * noise;
-    fit.weights = normal.llt().solve(moments.rightCols(width_));
+    const Eigen::MatrixXd moments = frame_products(usual.topRows(kept), 1);
+    Eigen::MatrixXd normal = moments.topLeftCorner(inputs, inputs);
+    normal.diagonal().array() += static_cast<double>(kept) * noise * noise;
+    fit.weights = normal.llt().solve(moments.topRightCorner(inputs, width_));
     for (Eigen::Index k = 0; k < rows.rows(); ++k) {
       for (int c = 0; c < width_; ++c) {
         left(k, c) = rows(k, inputs + c);

@@ -2,7 +2,7 @@
 #include "db/import/pca.h"
 
 #include "db/types/errors.h"
-#include "db/types/parallel_for.h"
+#include "db/types/frame_products.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -12,14 +12,13 @@ namespace phonomime {
 
 namespace {
 
-constexpr Eigen::Index kBlockFrames = 512;
-constexpr Eigen::Index kBlocksAtOnce = 8;
+constexpr Eigen::Index kFramesAtOnce = 4096;
+constexpr Eigen::Index kOriginFrames = 512;
 
 } // namespace
 
 CovarianceAccumulator::CovarianceAccumulator(Eigen::Index channel_count, int threads)
-    : channel_count_(channel_count), threads_(threads),
-      waiting_(kBlockFrames * kBlocksAtOnce, channel_count),
+    : channel_count_(channel_count), threads_(threads), waiting_(kFramesAtOnce, channel_count),
       sum_(Eigen::VectorXd::Zero(channel_count)),
       product_sum_(Eigen::MatrixXd::Zero(channel_count, channel_count)) {}
 
@@ -43,24 +42,12 @@ void CovarianceAccumulator::flush() {
     return;
   }
   if (origin_.size() == 0) {
-    origin_ = waiting_.topRows(std::min(kBlockFrames, waiting_count_)).colwise().mean().transpose();
+    origin_ =
+        waiting_.topRows(std::min(kOriginFrames, waiting_count_)).colwise().mean().transpose();
   }
-  const Eigen::Index block_count = (waiting_count_ + kBlockFrames - 1) / kBlockFrames;
-  std::vector<Eigen::VectorXd> sums(static_cast<std::size_t>(block_count));
-  std::vector<Eigen::MatrixXd> products(static_cast<std::size_t>(block_count));
-  parallel_for(block_count, threads_, [&](std::ptrdiff_t block) {
-    const Eigen::Index first = block * kBlockFrames;
-    const Eigen::Index count = std::min(kBlockFrames, waiting_count_ - first);
-    const FrameMatrixD centred = waiting_.middleRows(first, count).rowwise() - origin_.transpose();
-    const auto slot = static_cast<std::size_t>(block);
-    sums[slot] = centred.colwise().sum().transpose();
-    products[slot] = Eigen::MatrixXd::Zero(channel_count_, channel_count_);
-    products[slot].selfadjointView<Eigen::Lower>().rankUpdate(centred.transpose());
-  });
-  for (std::size_t slot = 0; slot < sums.size(); ++slot) {
-    sum_ += sums[slot];
-    product_sum_ += products[slot];
-  }
+  const FrameMatrixD centred = waiting_.topRows(waiting_count_).rowwise() - origin_.transpose();
+  sum_ += centred.colwise().sum().transpose();
+  product_sum_ += frame_products(centred, threads_);
   waiting_count_ = 0;
 }
 
@@ -74,9 +61,8 @@ FrameStatistics CovarianceAccumulator::finish() {
   if (frames_ > 0) {
     const Eigen::VectorXd shift = sum_ / static_cast<double>(frames_);
     result.mean = origin_ + shift;
-    Eigen::MatrixXd covariance = product_sum_ / static_cast<double>(frames_);
-    covariance.selfadjointView<Eigen::Lower>().rankUpdate(shift, -1.0);
-    result.covariance = covariance.selfadjointView<Eigen::Lower>();
+    const Eigen::MatrixXd covariance = product_sum_ / static_cast<double>(frames_);
+    result.covariance = covariance - shift * shift.transpose();
   }
   return result;
 }

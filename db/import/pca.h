@@ -17,9 +17,8 @@ struct FrameStatistics {
   std::int64_t left_out = 0;
 };
 
-// Gathers frames for a PCA in blocks of a fixed size: each block's sums are made by one thread, the
-// blocks' sums are added in order, so that the number of threads does not change a bit. All in
-// double, about the mean of the first block.
+// Gathers frames for a PCA in blocks of a fixed size, whose sums are added in order, so that the
+// number of threads does not change a bit. All in double, about the mean of the first frames.
 class CovarianceAccumulator {
 public:
   // `threads` 0: as many as there are.
@@ -35,11 +34,11 @@ private:
 
   Eigen::Index channel_count_;
   int threads_;
-  FrameMatrixD waiting_; // whole blocks of frames, summed together when full
+  FrameMatrixD waiting_; // a block of frames, summed when full
   Eigen::Index waiting_count_ = 0;
   Eigen::VectorXd origin_;      // about which sums are taken
   Eigen::VectorXd sum_;         // #channels
-  Eigen::MatrixXd product_sum_; // #channels by #channels, lower triangle
+  Eigen::MatrixXd product_sum_; // #channels by #channels
   std::int64_t frames_ = 0;
   std::int64_t left_out_ = 0;
 };
