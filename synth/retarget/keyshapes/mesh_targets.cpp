@@ -15,7 +15,10 @@ Eigen::VectorXd seam_shares(const Rig& rig, const std::string& part, const Point
   }
   const Eigen::ArrayXd upper =
       ((rest.col(1).array() - rig.seam->from) / (rig.seam->to - rig.seam->from)).max(0.0).min(1.0);
-  return part == "upper" ? upper.matrix() : (1.0 - upper).matrix();
+  if (part == "upper") {
+    return upper.matrix();
+  }
+  return (1.0 - upper).matrix();
 }
 
 } // namespace
