@@ -71,20 +71,12 @@ std::vector<std::filesystem::path> face_files(const std::filesystem::path& path)
   return files;
 }
 
-FaceSource read_face(const std::filesystem::path& path, const Layout& layout) {
+MarkerMap read_markers(const std::filesystem::path& path, const Layout& layout, int skin_vertices) {
   const std::vector<std::filesystem::path> files = face_files(path);
-  if (layout.kind != LayoutKind::markers) {
-    throw InputError({.where = path.string(),
-                      .what = "a face that markers move needs a database of markers",
-                      .got = "a database of weights"});
-  }
-  FaceSource face{.mesh = read_mesh(files.front()), .markers = {}};
   if (files.size() > 1) {
-    face.markers = parse_marker_map(read_file(files.back()), files.back().string(), layout,
-                                    face.mesh.skin_vertex_count());
-    return face;
+    return parse_marker_map(read_file(files.back()), files.back().string(), layout, skin_vertices);
   }
-  auto named = marker_map_from_names(layout, face.mesh.skin_vertex_count());
+  auto named = marker_map_from_names(layout, skin_vertices);
   if (!named) {
     throw InputError(
         {.where = files.front().string(),
@@ -92,7 +84,18 @@ FaceSource read_face(const std::filesystem::path& path, const Layout& layout) {
          .expected = "a table " + std::string(kMarkerTable) + " beside it",
          .remedy = "Write one line `marker<TAB>vertex` for each marker, vertices counted from 0."});
   }
-  face.markers = std::move(*named);
+  return std::move(*named);
+}
+
+FaceSource read_face(const std::filesystem::path& path, const Layout& layout) {
+  const std::filesystem::path mesh = face_files(path).front();
+  if (layout.kind != LayoutKind::markers) {
+    throw InputError({.where = path.string(),
+                      .what = "a face that markers move needs a database of markers",
+                      .got = "a database of weights"});
+  }
+  FaceSource face{.mesh = read_mesh(mesh), .markers = {}};
+  face.markers = read_markers(path, layout, face.mesh.skin_vertex_count());
   return face;
 }
 

@@ -22,6 +22,9 @@ struct FaceSource {
 // what was found) and IoError.
 FaceSource read_face(const std::filesystem::path& path, const Layout& layout);
 
+// Where a layout's markers sit on that face, whose skin has so many vertices. Throws as read_face.
+MarkerMap read_markers(const std::filesystem::path& path, const Layout& layout, int skin_vertices);
+
 // The files that read_face reads for a path: the mesh, then its marker table where there is one.
 // Throws as read_face does where there is no mesh to read.
 std::vector<std::filesystem::path> face_files(const std::filesystem::path& path);

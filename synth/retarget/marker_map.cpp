@@ -35,14 +35,11 @@ Columns read_header(std::string_view line, const std::string& where) {
 
 } // namespace
 
-MarkerMap parse_marker_map(std::string_view text, std::string_view where, const Layout& layout,
-                           int vertex_count) {
-  MarkerMap map;
-  map.vertices.assign(layout.groups.size(), -1);
+std::vector<MarkerPlace> parse_marker_table(std::string_view text, std::string_view where,
+                                            int vertex_count) {
+  std::vector<MarkerPlace> places;
   std::optional<Columns> columns;
   std::set<std::string, std::less<>> seen;
-  std::set<long> used;
-  std::size_t known = 0;
   long line_number = 0;
   for (const std::string_view line : split_lines(text)) {
     ++line_number;
@@ -74,17 +71,29 @@ MarkerMap parse_marker_map(std::string_view text, std::string_view where, const 
     if (!seen.insert(marker).second) {
       throw InputError({.where = place, .what = "marker " + quoted(marker) + " is placed twice"});
     }
-    const std::optional<int> group = layout.find_group(marker);
+    places.push_back({.marker = marker, .vertex = static_cast<int>(*vertex), .line = line_number});
+  }
+  return places;
+}
+
+MarkerMap parse_marker_map(std::string_view text, std::string_view where, const Layout& layout,
+                           int vertex_count) {
+  MarkerMap map;
+  map.vertices.assign(layout.groups.size(), -1);
+  std::set<int> used;
+  std::size_t known = 0;
+  for (const MarkerPlace& place : parse_marker_table(text, where, vertex_count)) {
+    const std::optional<int> group = layout.find_group(place.marker);
     if (!group) {
-      map.unknown.push_back(marker);
+      map.unknown.push_back(place.marker);
       continue;
     }
-    if (!used.insert(*vertex).second) {
-      throw InputError({.where = place,
-                        .what = "two markers are on vertex " + std::to_string(*vertex),
-                        .remedy = "Give marker " + quoted(marker) + " a vertex of its own."});
+    if (!used.insert(place.vertex).second) {
+      throw InputError({.where = at_line(where, place.line),
+                        .what = "two markers are on vertex " + std::to_string(place.vertex),
+                        .remedy = "Give marker " + quoted(place.marker) + " a vertex of its own."});
     }
-    map.vertices[static_cast<std::size_t>(*group)] = static_cast<int>(*vertex);
+    map.vertices[static_cast<std::size_t>(*group)] = place.vertex;
     ++known;
   }
   if (known < kFewestMarkers) {

@@ -19,10 +19,21 @@ struct MarkerMap {
   std::vector<std::string> unknown; // the table's markers that the layout does not have
 };
 
+// A line of a marker table.
+struct MarkerPlace {
+  std::string marker;
+  int vertex = 0; // of the skin
+  long line = 0;
+};
+
 // A tab-separated table with a header line that names the columns `marker` and `vertex` (others are
 // passed over; `#` starts a comment): vertices counted from 0. `where` names it in errors.
-// Throws InputError: a vertex out of range or used twice, a marker twice, fewer than 4 markers of
-// the layout.
+// Throws InputError: a vertex out of range, a marker twice.
+std::vector<MarkerPlace> parse_marker_table(std::string_view text, std::string_view where,
+                                            int vertex_count);
+
+// The same for a layout. Throws InputError, also for a vertex used twice and for fewer than 4
+// markers of the layout.
 MarkerMap parse_marker_map(std::string_view text, std::string_view where, const Layout& layout,
                            int vertex_count);
 

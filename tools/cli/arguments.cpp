@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -205,10 +206,16 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   add_explain(app, words);
   add_map(app, words);
   add_recommend(app, words);
+  add_retarget(app, words);
   add_common(app, words.arguments.common);
-  check_verbs(app, std::span(argv, static_cast<std::size_t>(argc)).subspan(argc > 0 ? 1 : 0));
+  std::vector<const char*> call(argv, argv + argc);
+  if (call.size() > 2 && call[1] == std::string_view("retarget") &&
+      call[2] == std::string_view("--list")) {
+    call[2] = "list";
+  }
+  check_verbs(app, std::span(call).subspan(call.empty() ? 0 : 1));
   try {
-    app.parse(argc, argv);
+    app.parse(argc, call.data());
   } catch (const CLI::CallForHelp&) {
     words.arguments.verb = PrintArguments{app.help()};
     return words.arguments;
@@ -233,6 +240,8 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   const std::string verb = app.get_subcommands().front()->get_name();
   if (verb == "map") {
     take_map_words(*app.get_subcommands().front(), words);
+  } else if (verb == "retarget") {
+    take_retarget_words(*app.get_subcommands().front(), words);
   } else if (verb == "recommend") {
     words.recommend.options.synth = words.synth.options;
     words.arguments.verb = words.recommend;

@@ -10,6 +10,7 @@
 #include "tools/app/tune.h"
 #include "tools/cli/curation_arguments.h"
 #include "tools/cli/map_arguments.h"
+#include "tools/cli/retarget_arguments.h"
 
 #include <filesystem>
 #include <string>
@@ -72,8 +73,9 @@ struct Arguments {
   std::variant<PrintArguments, ImportArguments, InfoArguments, NodesArguments, SuspectsArguments,
                CurateArguments, JournalArguments, SynthArguments, StreamArguments,
                MapBuildArguments, MapShowArguments, MapImageArguments, MapPickArguments,
-               MapQualityArguments, RecommendArguments, BatchArguments, EvaluateArguments,
-               TuneArguments, ExplainArguments>
+               MapQualityArguments, RecommendArguments, RetargetListArguments,
+               RetargetApplyArguments, BatchArguments, EvaluateArguments, TuneArguments,
+               ExplainArguments>
       verb;
 };
 

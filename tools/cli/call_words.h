@@ -24,6 +24,12 @@ struct MapWords {
   std::vector<std::string> context, palette;
 };
 
+// Of `phonomime retarget ...`.
+struct RetargetWords {
+  RetargetListArguments list;
+  RetargetApplyArguments apply;
+};
+
 // Of verbs that list motion nodes, or take them out of use.
 struct CurationWords {
   NodeFilter filter;
@@ -48,6 +54,7 @@ struct CallWords {
   TuneArguments tune;
   ExplainArguments explain;
   MapWords map;
+  RetargetWords retarget;
   RecommendArguments recommend; // but its synthesis
   CurationWords curation;
   std::string scale, cost, head, silence = "linear", shard = "1/1";
@@ -89,5 +96,9 @@ void add_map(CLI::App& app, CallWords& words);
 void add_recommend(CLI::App& app, CallWords& words);
 // Which of the verbs of `map` it is.
 void take_map_words(const CLI::App& map, CallWords& words);
+
+void add_retarget(CLI::App& app, CallWords& words);
+// Which of the verbs of `retarget` it is.
+void take_retarget_words(const CLI::App& retarget, CallWords& words);
 
 } // namespace phonomime

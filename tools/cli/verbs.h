@@ -42,6 +42,10 @@ void run_verb(const MapQualityArguments& arguments, const CommonArguments& commo
               const Progress& progress);
 void run_verb(const RecommendArguments& arguments, const CommonArguments& common,
               const Progress& progress);
+void run_verb(const RetargetApplyArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const RetargetListArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
 void run_verb(const ExplainArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 

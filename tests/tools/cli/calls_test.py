@@ -11,7 +11,7 @@ import phonomime_cli as cli
 import tiny_corpus
 
 VERBS = ("import", "info", "nodes", "synth", "batch", "evaluate", "tune", "map build", "map show", "map image", "map pick",
-         "map quality", "recommend", "suspects", "prune", "restore", "undo", "journal", "explain")
+         "map quality", "recommend", "retarget list", "retarget apply", "suspects", "prune", "restore", "undo", "journal", "explain")
 
 
 class CallsTest(cli.CliTest):
@@ -27,6 +27,7 @@ class CallsTest(cli.CliTest):
         cls.transcript = cli.write_transcript(folder / "hello.lab", ["b", "aa", "m", "iy"])
         cls.manifest = folder / "lines.tsv"
         cls.manifest.write_text("transcript\nhello.lab\n")
+        cls.face = tiny_corpus.write_face(folder / "face")
         cls.result = folder / "hello.json"
         cli.run_well("synth", "--db", cls.database, cls.transcript, "-o", cls.result)
 
@@ -45,6 +46,7 @@ class CallsTest(cli.CliTest):
             "map pick": ["map", "pick", self.database, "aa", 0, 0],
             "map quality": ["map", "quality", self.database],
             "recommend": ["recommend", self.database, self.transcript, "--row", 2],
+            "retarget list": ["retarget", "list", self.face],
             "suspects": ["suspects", self.database],
             "journal": ["journal", self.database],
         }
@@ -61,7 +63,7 @@ class CallsTest(cli.CliTest):
                 for line in example.strip().splitlines():
                     words = shlex.split(line)
                     self.assertEqual(words[0], "phonomime")
-                    named = words[1:3] if words[1] == "map" else words[1:2]
+                    named = words[1:3] if words[1] in ("map", "retarget") else words[1:2]
                     for option in (word for word in words if re.match("-[^0-9]", word)):
                         self.assertRegex(cli.run_well(*named, "--help"), rf"(?m)^  .*{re.escape(option)}\b")
         for verb in ("import", "synth", "batch", "evaluate", "map build", "recommend"):
@@ -69,7 +71,7 @@ class CallsTest(cli.CliTest):
 
     def test_help_is_for_people(self):
         """Lines that fit a terminal, no inner workings, and a meaning for each option."""
-        for verb in ((), ("map",), *(verb.split() for verb in VERBS)):
+        for verb in ((), ("map",), ("retarget",), *(verb.split() for verb in VERBS)):
             with self.subTest(" ".join(verb)):
                 text = cli.run_well(*verb, "--help")
                 self.assertRegex(text, rf"\nUsage: phonomime {' '.join(verb)}")
@@ -92,8 +94,8 @@ class CallsTest(cli.CliTest):
                 self.assertEqual((result.returncode, result.stdout, result.stderr), (cli.DONE, "", ""))
 
     def test_quiet_leaves_data_on_stdout(self):
-        for verb in ("info", "nodes", "explain", "map show", "map pick", "map quality", "recommend", "suspects",
-                     "journal"):
+        for verb in ("info", "nodes", "explain", "map show", "map pick", "map quality", "recommend", "retarget list",
+                     "suspects", "journal"):
             with self.subTest(verb):
                 result = cli.run(*self.calls()[verb], "--quiet")
                 self.assertEqual((result.returncode, result.stderr), (cli.DONE, ""))

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "db/types/motion_table.h"
+#include "db/types/progress.h"
+#include "synth/retarget/marker_map.h"
+#include "synth/retarget/placement.h"
+#include "synth/retarget/shape_face.h"
+#include "tools/app/motion_file.h"
+#include "tools/app/retarget_apply.h"
+
+#include <string>
+#include <vector>
+
+namespace phonomime {
+
+// What every method of `retarget apply` but `weights` is given.
+struct RetargetSource {
+  const RetargetApplyOptions& options;
+  const MotionTable& table; // of the database
+  const MotionFile& motion; // in the table's layout, the head taken off
+  const ShapeFace& face;
+  // Which vertex of the skin each marker of the layout sits on; empty where the layout is of
+  // weights or the method asks for none.
+  const MarkerMap& markers;
+  const Similarity& placement; // of the face on the speaker's reference pose (mm)
+};
+
+// What it gives.
+struct RetargetedWeights {
+  FrameMatrixD weights; // #frames of the motion by #shapes of the face
+  std::vector<std::string> notes;
+  std::string figures_json; // as RetargetReport::figures_json
+};
+
+// One for each method; each throws UsageError and InputError. They live in files of their own.
+RetargetedWeights retarget_by_fit(const RetargetSource& source, const Progress& progress);
+RetargetedWeights retarget_by_pairs(const RetargetSource& source, bool equations,
+                                    const Progress& progress);
+RetargetedWeights retarget_by_keyshapes(const RetargetSource& source, const Progress& progress);
+
+} // namespace phonomime

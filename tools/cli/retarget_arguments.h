@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "tools/app/retarget_apply.h"
+#include "tools/app/retarget_list.h"
+
+namespace phonomime {
+
+// What the words of `phonomime retarget ...` ask for.
+struct RetargetListArguments {
+  RetargetListOptions options;
+};
+
+struct RetargetApplyArguments {
+  RetargetApplyOptions options;
+};
+
+} // namespace phonomime
