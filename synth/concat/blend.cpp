@@ -80,16 +80,19 @@ FrameMatrixD blend_motions(std::span<const FrameMatrixD> motions, const FrameMat
   }
   const std::vector<double> window = binomial_window(options.cut_off_s * rate_hz);
   const Parts own = part(mean, window);
-  double slow = 0.0;
+  Eigen::RowVectorXd slow = Eigen::RowVectorXd::Zero(mean.cols());
   double fast = 0.0;
   for (const FrameMatrixD& motion : motions) {
     const Parts parts = part(motion, window);
-    slow += parts.slow.squaredNorm();
+    slow += parts.slow.colwise().squaredNorm();
     fast += parts.fast.squaredNorm();
   }
   const auto count = static_cast<double>(motions.size());
-  FrameMatrixD result = gain(slow / count, own.slow.squaredNorm(), options.liveliness) * own.slow +
-                        gain(fast / count, own.fast.squaredNorm(), options.liveliness) * own.fast;
+  FrameMatrixD result = gain(fast / count, own.fast.squaredNorm(), options.liveliness) * own.fast;
+  for (Eigen::Index c = 0; c < result.cols(); ++c) {
+    result.col(c) +=
+        gain(slow[c] / count, own.slow.col(c).squaredNorm(), options.liveliness) * own.slow.col(c);
+  }
   result.rowwise() += own.pose;
   return result;
 }

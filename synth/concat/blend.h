@@ -8,9 +8,9 @@
 namespace phonomime {
 
 struct BlendOptions {
-  double liveliness = 0.5;      // 0: the mean as it is; 1: all the energy of the motions in it
-  double cut_off_s = 0.03;      // deviation of the gaussian between slow and fast motion
-  double expected_share = 0.25; // of the motion that the words let expect, where it is known
+  double liveliness = 0.5;     // 0: the mean as it is; 1: all the energy of the motions in it
+  double cut_off_s = 0.03;     // deviation of the gaussian between slow and fast motion
+  double expected_share = 0.5; // of the motion that the words let expect, where it is known
 };
 
 // The mean of several motions of the same words, with a share of what the words let expect, made as
@@ -20,10 +20,12 @@ struct BlendOptions {
 // slower than each. The mean is parted into its pose over time, slow and fast motion (a gaussian
 // over time, held at the ends), and each of the latter two is multiplied by
 //     1 + liveliness (sqrt(mean of the part's energy in the motions / in their mean) - 1),
-// energy the sum of squares over frames and coefficients, but by 2 at most.
-// `motions`: at least one, all #frames by #coefficients, of one stretch of speech. `expected`: the
-// same, or without rows where nothing is expected. One motion comes back as it is, and so do, to
-// rounding, motions that are all alike where nothing is expected.
+// energy the sum of squares over frames, but by 2 at most. Each coefficient of the slow motion has
+// a gain of its own: how far each of them moves is what an emotion is recognised by, and the less
+// they have to do with the phonemes, the more they lose. The fast motion has one for all
+// coefficients. `motions`: at least one, all #frames by #coefficients, of one stretch of speech.
+// `expected`: the same, or without rows where nothing is expected. One motion comes back as it is,
+// and so do, to rounding, motions that are all alike where nothing is expected.
 FrameMatrixD blend_motions(std::span<const FrameMatrixD> motions, const FrameMatrixD& expected,
                            double rate_hz, const BlendOptions& options = {});
 

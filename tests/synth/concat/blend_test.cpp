@@ -79,6 +79,28 @@ TEST(Blend, AllLivelinessGivesTheEnergyOfTheMotionsBack) {
   }
 }
 
+// Slow motion that all have in common in one coefficient and none in another: each is given back
+// its own energy, and the first is left as it was.
+TEST(Blend, EachSlowCoefficientGetsItsOwnEnergyBack) {
+  std::vector<FrameMatrixD> motions;
+  for (const double phase : {-0.9, 0.0, 0.9}) {
+    FrameMatrixD motion(400, 2);
+    for (Eigen::Index k = 0; k < motion.rows(); ++k) {
+      const double turn = 2.0 * std::numbers::pi * static_cast<double>(k) / kRate_hz;
+      motion.row(k) << 10.0 * std::sin(turn), std::sin(turn + phase);
+    }
+    motions.push_back(motion);
+  }
+  const FrameMatrixD blend =
+      blend_motions(motions, {}, kRate_hz, {.liveliness = 1.0, .expected_share = 0.0});
+  const auto energy = [](const FrameMatrixD& motion, Eigen::Index c) {
+    return (motion.col(c).array() - motion.col(c).mean()).square().sum();
+  };
+  EXPECT_LT((blend.col(0) - motions[0].col(0)).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_LT(energy(mean_of(motions), 1), 0.7 * energy(motions[0], 1));
+  EXPECT_NEAR(energy(blend, 1), energy(motions[0], 1), 0.02 * energy(motions[0], 1));
+}
+
 TEST(Blend, NoGainIsAboveTwo) {
   FrameMatrixD up = random_motion(4);
   const std::vector<FrameMatrixD> opposed = {up, -0.999 * up}; // nearly nothing is left
