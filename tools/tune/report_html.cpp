@@ -20,7 +20,8 @@ constexpr std::string_view kStyle =
     "color:#222;background:#fff}h1{font-size:1.6em}h2{font-size:1.2em;margin-top:2em}"
     "table{border-collapse:collapse;font-variant-numeric:tabular-nums}.wide{overflow-x:auto}"
     "td,th{padding:.2em .7em;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}"
-    "td:first-child,th:first-child{text-align:left}.plots{display:flex;flex-wrap:wrap;gap:1em}"
+    "td:first-child,th:first-child,.pairs td:nth-child(2),.pairs th:nth-child(2){text-align:left}"
+    ".plots{display:flex;flex-wrap:wrap;gap:1em}"
     ".verdict{font-size:1.1em;border-left:4px solid #2a6f97;padding-left:.8em}"
     "svg text{font-size:11px;fill:#444}svg .title{font-size:13px;fill:#222}"
     "svg .grid{stroke:#e4e4e4}svg path{stroke-width:1.6}.muted{color:#666}";
@@ -30,7 +31,10 @@ class Table {
 public:
   explicit Table(const std::vector<std::string>& header) { add_row(header, "th"); }
   void add(const std::vector<std::string>& cells) { add_row(cells, "td"); }
-  std::string html() const { return "<div class='wide'><table>" + rows_ + "</table></div>\n"; }
+  // `kind`: a class of the style, or empty.
+  std::string html(std::string_view kind = "") const {
+    return fmt::format("<div class='wide'><table class='{}'>{}</table></div>\n", kind, rows_);
+  }
 
 private:
   void add_row(const std::vector<std::string>& cells, std::string_view tag) {
@@ -66,7 +70,7 @@ std::string gains(const Tuning& tuning) {
     add(part_name(fold), fmt::format("fold {}", fold.fold), fold.held_out);
   }
   add(part_name(tuning.all), "sentences tuned to", tuning.all.inner);
-  return table.html();
+  return table.html("pairs");
 }
 
 std::string weights(const Tuning& tuning) {
@@ -89,7 +93,8 @@ std::string weights(const Tuning& tuning) {
   return table.html();
 }
 
-// From the best value to about the worse half of the looks, the shipped weights among them.
+// From the best value to that which a quarter of the looks are worse than, the shipped weights
+// among them: a few bad ones would press all others together.
 void frame(Plot& plot, const TunedPart& part) {
   std::vector<double> values;
   for (const EvaluatedWeights& look : part.looks) {
@@ -178,12 +183,14 @@ std::string tuning_html(const Tuning& tuning) {
       "to</h2>\n{}<h2>Weights</h2>\n{}",
       escape_html(measure.label), escape_html(measure.formula),
       unit == "1" ? std::string("no unit") : escape_html(unit), gains(tuning), weights(tuning));
-  html += "<h2>The objective over each weight</h2>\n<p>Every evaluation of the tuning to all "
-          "sentences; orange the shipped weights, blue the tuned ones.</p>\n<div class='plots'>\n";
+  html += "<h2>The objective over each weight</h2>\n<p>Evaluations of the tuning to all "
+          "sentences, without the worst quarter; orange the shipped weights, blue the tuned "
+          "ones.</p>\n<div class='plots'>\n";
   for (const TunableWeight& weight : tuning.weights) {
     html += weight_plot(tuning, weight);
   }
-  html += "</div>\n<h2>How the search went</h2>\n<div class='plots'>\n";
+  html += "</div>\n<h2>How the search went</h2>\n<p>Blue the best found so far, orange the shipped "
+          "weights; first the starts, then the descents.</p>\n<div class='plots'>\n";
   html += course_plot(tuning.all);
   for (const TunedPart& fold : tuning.folds) {
     html += course_plot(fold);
