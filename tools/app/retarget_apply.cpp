@@ -187,12 +187,12 @@ Similarity place_face(const RetargetApplyOptions& options, const MotionTable& ta
 }
 
 ShapeMotion motion_of_markers(const RetargetApplyOptions& options, RetargetMethod method,
-                              const ShapeFace& face, RetargetReport& report,
+                              double recorded_hz, const ShapeFace& face, RetargetReport& report,
                               const Progress& progress) {
   const MotionDatabase database = MotionDatabase::open(options.database, OpenMode::read_only);
   const MotionTable table = database.load_motion_table(options.speaker);
-  const MotionFile file =
-      read_motion_file(options.motion, table, {.layout = options.layout}, options.fps);
+  const MotionFile file = read_motion_file(options.motion, table, {.layout = options.layout},
+                                           options.fps == 0.0 ? recorded_hz : options.fps);
   report.notes.insert(report.notes.end(), file.notes.begin(), file.notes.end());
   MarkerMap markers;
   const Similarity placement = table.layout.kind == LayoutKind::markers
@@ -255,9 +255,10 @@ RetargetReport apply_to_face(const RetargetApplyOptions& options, const Progress
                       .what = "motion of markers needs the database that it is from",
                       .remedy = "Name it with --db."});
   }
-  ShapeMotion motion = report.method == RetargetMethod::weights
-                           ? motion_of_weights(options, clip, face, report)
-                           : motion_of_markers(options, report.method, face, report, progress);
+  ShapeMotion motion =
+      report.method == RetargetMethod::weights
+          ? motion_of_weights(options, clip, face, report)
+          : motion_of_markers(options, report.method, clip.rate_hz, face, report, progress);
   motion.weights.frames =
       filter_weights(motion.weights.frames.cast<double>(), motion.weights.rate_hz, options.filter_s)
           .cast<float>();
