@@ -137,8 +137,9 @@ std::string fingerprint(const MotionTable& table) {
 std::string fingerprint(const SynthOptions& options, const std::string& table,
                         FileFingerprints& files) {
   const auto& [database, transcript, outputs, speaker, phoneme_set, tier, emotion, emotions,
-               constraints, cost, blend, weights, audio, face, fps, head, silence,
-               smoothing_half_window, runners_up, tells_result, threads, make_folders] = options;
+               constraints, cost, blend, weights, audio, face, fps, head, retime, retime_with_audio,
+               silence, smoothing_half_window, runners_up, tells_result, threads, make_folders] =
+      options;
   Values values;
   const auto add_file = [&](const std::filesystem::path& file) {
     values.add(file.empty());
@@ -147,7 +148,7 @@ std::string fingerprint(const SynthOptions& options, const std::string& table,
     }
   };
   // The recordings of `speaker` in `database` are `table`; neither threads nor folders nor what is
-  // told beside the outputs change a byte of them.
+  // told beside the outputs change a byte of them, nor does the leave to retime beside a sound.
   values.add_all(std::string_view("phonomime " PHONOMIME_VERSION), table);
   values.add(transcript.filename().string());
   add_file(transcript);
@@ -169,7 +170,7 @@ std::string fingerprint(const SynthOptions& options, const std::string& table,
     }
   }
   values.add_all(cost.value_or(kUsualCost), blend.value_or(kUsualBlend), fps, head.has_value(),
-                 head.value_or(HeadPose{}), silence, smoothing_half_window, runners_up);
+                 head.value_or(HeadPose{}), retime, silence, smoothing_half_window, runners_up);
   return values.hex();
 }
 

@@ -4,6 +4,7 @@
 #include "db/import/tab_table.h"
 #include "db/types/errors.h"
 #include "db/types/text.h"
+#include "tools/app/retime.h"
 #include "tools/app/synth_outputs.h"
 
 #include <array>
@@ -161,6 +162,7 @@ ManifestRow read_row(const TabTable& table, const fs::path& folder, const SynthO
   for (fs::path& output : options.outputs) {
     output = with_id(output.string(), row.id);
   }
+  add_retimed_transcript(options);
   check_row(row, table.where());
   return row;
 }

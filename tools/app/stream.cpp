@@ -36,6 +36,7 @@ void check_stream_options(const StreamOptions& options) {
   refuse(!synth.face.empty(), "--face", "frames are the markers' or weights' own, as CSV");
   refuse(!synth.audio.empty(), "--audio", "only a player has sound");
   refuse(!synth.tier.empty(), "--tier", "a stream of lines is no TextGrid");
+  refuse(synth.retime, "--retime", "its rows are said when they say");
   refuse(synth.runners_up > 0, "--runners-up", "they need the whole transcript");
   refuse(synth.cost.value_or(CostModel::paper) != CostModel::paper, "--cost context",
          "it looks at what is said later");

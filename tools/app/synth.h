@@ -20,20 +20,22 @@ class SynthStock;
 struct SynthOptions {
   std::filesystem::path database;
   std::filesystem::path transcript;
-  std::vector<std::filesystem::path> outputs; // kind by suffix: .csv .glb .html .json .txt
+  std::vector<std::filesystem::path> outputs; // kind by suffix: .csv .glb .html .json .lab .txt
   std::string speaker;                        // needed where the database holds several
   std::string phoneme_set;                    // built-in name or file; empty: found by the symbols
   std::string tier;                           // of a TextGrid
   std::string emotion;                        // NAME or NAME:INTENSITY; empty: neutral
   std::filesystem::path emotions;             // emotion track
   std::filesystem::path constraints;
-  std::optional<CostModel> cost; // empty: kUsualCost, of a stream the paper's
-  std::optional<int> blend;      // paths that are blended, 1 to 100; empty: kUsualBlend
-  std::filesystem::path weights; // of the cost, where they are not its own
-  std::filesystem::path audio;   // WAV, goes into the HTML player
-  std::filesystem::path face;    // needed for .glb and .html
-  double fps = 30.0;             // 1 to 1000
-  std::optional<HeadPose> head;  // constant; empty: the head rests
+  std::optional<CostModel> cost;  // empty: kUsualCost, of a stream the paper's
+  std::optional<int> blend;       // paths that are blended, 1 to 100; empty: kUsualBlend
+  std::filesystem::path weights;  // of the cost, where they are not its own
+  std::filesystem::path audio;    // WAV, goes into the HTML player
+  std::filesystem::path face;     // needed for .glb and .html
+  double fps = 30.0;              // 1 to 1000
+  std::optional<HeadPose> head;   // constant; empty: the head rests
+  bool retime = false;            // the transcript gets the tempo of its emotions ...
+  bool retime_with_audio = false; // ... although there is a sound, which then no longer fits
   SilenceOptions silence;
   int smoothing_half_window = 3; // s of E16, frames, 0 to 100
   int runners_up = 3;            // per phoneme, 0 to 100, where a .json or .txt output tells them

@@ -9,6 +9,7 @@
 #include "db/types/text.h"
 #include "synth/pipeline/transcript_steps.h"
 #include "synth/search/cost_weights.h"
+#include "tools/app/retime.h"
 #include "tools/app/synth_outputs.h"
 
 #include <algorithm>
@@ -127,6 +128,9 @@ SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTab
   const AskedEmotions emotions = read_asked_emotions(options, table);
   input.emotions = assign_emotions(emotions.track, input.transcript, emotions.fallback);
   input.constraints = read_constraints(options);
+  if (options.retime) {
+    retime_input(table, input, notes);
+  }
   input.weights = read_weights(options, default_weights);
   input.blend = options.blend.value_or(kUsualBlend);
   input.search = {.threads = options.threads,

@@ -11,6 +11,7 @@
 #include "synth/pipeline/closures.h"
 #include "synth/pipeline/explain.h"
 #include "tools/app/option_checks.h"
+#include "tools/app/retime.h"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +24,7 @@ namespace phonomime {
 
 namespace {
 
-enum class OutputKind { csv, glb, html, json, text };
+enum class OutputKind { csv, glb, html, json, transcript, text };
 
 OutputKind output_kind(const std::filesystem::path& path) {
   const std::string suffix = to_lower(path.extension().string());
@@ -39,18 +40,33 @@ OutputKind output_kind(const std::filesystem::path& path) {
   if (suffix == ".json") {
     return OutputKind::json;
   }
+  if (suffix == ".lab") {
+    return OutputKind::transcript;
+  }
   if (suffix == ".txt") {
     return OutputKind::text;
   }
   throw UsageError({.where = path.string(),
                     .what = "the suffix names no kind of output",
-                    .expected = ".csv, .glb, .html, .json or .txt",
+                    .expected = ".csv, .glb, .html, .json, .lab or .txt",
                     .got = quoted(suffix)});
 }
 
 bool shows_face(const std::filesystem::path& path) {
   const OutputKind kind = output_kind(path);
   return kind == OutputKind::glb || kind == OutputKind::html;
+}
+
+// A .lab output must not be the transcript that is read.
+void check_transcript_stays(const SynthOptions& options) {
+  for (const std::filesystem::path& path : options.outputs) {
+    std::error_code error;
+    if (std::filesystem::equivalent(path, options.transcript, error)) {
+      throw UsageError({.where = path.string(),
+                        .what = "the output is the transcript itself",
+                        .remedy = "Give it another name."});
+    }
+  }
 }
 
 void make_folder_of(const std::filesystem::path& path) {
@@ -115,6 +131,12 @@ void check_synth_options(const SynthOptions& options) {
   check_motion_options(options);
   check_range("--runners-up", options.runners_up, 0, 100);
   check_outputs_differ(options.outputs);
+  check_transcript_stays(options);
+  if (options.retime && !options.audio.empty() && !options.retime_with_audio) {
+    throw UsageError({.where = "--retime",
+                      .what = "does not go with --audio: the sound fixes the times",
+                      .remedy = "Leave out the sound, or say --retime-with-audio."});
+  }
   if (needs_face(options) && options.face.empty()) {
     throw UsageError({.what = "a .glb or .html output needs a face",
                       .remedy = "Name a mesh with --face: an .obj or .glb file, or the folder "
@@ -158,6 +180,9 @@ std::vector<std::filesystem::path> SynthOutputs::write(const SynthesisResult& re
       break;
     case OutputKind::json:
       files.stage(path, result_json);
+      break;
+    case OutputKind::transcript:
+      files.stage(path, xlabel_text(result.rows));
       break;
     case OutputKind::text:
       files.stage(path, explain_result(result_json, "result"));

@@ -2,6 +2,7 @@
 #include "tools/cli/arguments.h"
 
 #include "db/types/errors.h"
+#include "tools/app/retime.h"
 #include "tools/cli/call_words.h"
 #include "tools/cli/help.h"
 #include "tools/cli/words.h"
@@ -258,6 +259,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     }
     words.arguments.verb = StreamArguments{words.stream};
   } else if (verb == "synth") {
+    add_retimed_transcript(words.synth.options);
     words.arguments.verb = words.synth;
   } else if (verb == "batch") {
     words.batch.synth = words.synth.options;

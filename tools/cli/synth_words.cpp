@@ -20,6 +20,13 @@ void add_synth_inputs(CLI::App* verb, SynthOptions& options, CallWords& words) {
 void add_synth_options(CLI::App* verb, CallWords& words) {
   SynthOptions& options = words.synth.options;
   add_synth_inputs(verb, options, words);
+  CLI::Option* retime = verb->add_flag(
+      "--retime", options.retime,
+      "Give phonemes the tempo of their emotions, as recorded, and write the transcript with its "
+      "new times beside the first output (.retimed.lab)");
+  verb->add_flag("--retime-with-audio", options.retime_with_audio,
+                 "With --retime: although there is --audio, which then no longer fits")
+      ->needs(retime);
   verb->add_option("--fps", options.fps, "Output frames a second, 1 to 1000")
       ->type_name("N")
       ->capture_default_str();
@@ -113,7 +120,8 @@ void add_synth(CLI::App& app, CallWords& words) {
   verb->add_option(
           "-o,--output", options.outputs,
           "Outputs; the suffix says what: .csv (marker or Live Link motion), .glb (animated "
-          "mesh), .html (player), .json (the result), .txt (the explanation)")
+          "mesh), .html (player), .json (the result), .lab (the transcript), .txt (the "
+          "explanation)")
       ->type_name("FILE...");
   add_synth_options(verb, words);
   CLI::Option* stream = verb->add_flag_callback(

@@ -129,6 +129,7 @@ TEST_F(SynthFingerprintTest, ChangesWithEveryOptionThatShapesAResult) {
       [](SynthOptions& o) {
         o.head = HeadPose{.translation_mm = {0.0, 1.0, 0.0}};
       },
+      [](SynthOptions& o) { o.retime = true; },
       [](SynthOptions& o) { o.silence.fill = SilenceFill::cubic; },
       [](SynthOptions& o) { o.silence.rest_at_ends = false; },
       [](SynthOptions& o) { o.smoothing_half_window = 4; },
