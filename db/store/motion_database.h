@@ -3,6 +3,7 @@
 
 #include "db/store/curation.h"
 #include "db/store/phoneme_maps.h"
+#include "db/store/style_models.h"
 #include "db/types/imported_sentence.h"
 #include "db/types/layout.h"
 #include "db/types/motion_table.h"
@@ -115,6 +116,14 @@ public:
   // Stores a phoneme's maps in the place of those that there were, in a transaction of its own
   // (read_write only). Throws InternalError for parts that do not fit each other, IoError.
   void save_map(const StoredMap& map);
+
+  // The style models that are stored for a speaker, fresh or stale; nothing where there are none.
+  // Throws InputError (damaged).
+  std::optional<StoredStyleModel> load_style_model(const std::string& speaker) const;
+
+  // Stores a speaker's style models in the place of those that there were, in a transaction of its
+  // own (read_write only). Throws InternalError for numbers that are not finite, IoError.
+  void save_style_model(const StoredStyleModel& model);
 
   // Every sentence with its channels, in order of (speaker, emotion, id): what suspects are judged
   // by. Throws InputError (damaged).

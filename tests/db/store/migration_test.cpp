@@ -156,5 +156,26 @@ TEST(OldDatabases, SuspectsOfVersion2KeepTheirTextsAndAreToldApart) {
   test::expect_sound(path);
 }
 
+TEST(OldDatabases, Version3KeepsItsJournalAndHasNoStyleModelYet) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "old.db";
+  std::filesystem::copy_file(
+      std::filesystem::path(PHONOMIME_SOURCE_DIR) / "tests/data/motion_database_v3.db", path);
+  ASSERT_EQ(raw_query(path, "PRAGMA user_version"), std::vector<std::string>{"3"});
+  std::vector<std::string> before = test::raw_dump(path);
+  const MotionDatabase database = MotionDatabase::open(path, OpenMode::read_only);
+  EXPECT_FALSE(database.load_style_model("ann"));
+  EXPECT_EQ(database.journal().size(), 3u);
+  const MotionTable table = database.load_motion_table("ann");
+  EXPECT_EQ(table.nodes.size(), 11u);
+  EXPECT_EQ(table.unavailable.size(), 1u);
+  // All that there was is there as it was.
+  std::vector<std::string> after = test::raw_dump(path);
+  std::ranges::sort(before);
+  std::ranges::sort(after);
+  EXPECT_TRUE(std::ranges::includes(after, before));
+  test::expect_sound(path);
+}
+
 } // namespace
 } // namespace phonomime::store

@@ -303,7 +303,7 @@ TEST_F(MotionTableTest, InfoCountsWhatWentIn) {
                        s.rows[row + 1].phoneme.name);
     }
   }
-  EXPECT_EQ(info.schema_version, 3);
+  EXPECT_EQ(info.schema_version, 4);
   EXPECT_EQ(info.sentences, 6);
   EXPECT_EQ(info.frames, frames);
   EXPECT_EQ(info.nodes, nodes);
