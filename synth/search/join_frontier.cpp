@@ -123,18 +123,12 @@ JoinFrontier::Best JoinFrontier::best_join(NodeIndex node, double penalty, doubl
   return best;
 }
 
-JoinFrontier::Best JoinFrontier::bound_join(NodeIndex node, Tightness tightness, double limit,
-                                            NodeIndex hint, Counts& counts) const {
-  Best best;
-  const auto most = [&] { return std::min(best.value, limit); };
-  const auto consider = [&](const EndTree::Entry& entry, double value) {
-    if (value <= most()) {
-      best = {value, entry.node};
-    }
-  };
+void JoinFrontier::bound_join(NodeIndex node, Tightness tightness,
+                              std::span<const LeastJoins::Join> hints, LeastJoins& least,
+                              Counts& counts) const {
   const auto consider_join = [&](const EndTree::Entry& entry, double other_viseme) {
     const auto [from, to] = in_time(entry.node, node);
-    const double room = most() - entry.value - other_viseme;
+    const double room = least.limit() - entry.value - other_viseme;
     if (kernels_.bound.gaps(from, to, room) > room) {
       return;
     }
@@ -142,32 +136,49 @@ JoinFrontier::Best JoinFrontier::bound_join(NodeIndex node, Tightness tightness,
     if (gaps <= room) {
       ++counts.transitions;
       const double smoothing = kernels_.cost.smoothing_up_to(room - gaps, from, to) * kBelow;
-      consider(entry, entry.value + (smoothing + gaps + other_viseme));
+      least.consider(entry, smoothing + gaps + other_viseme);
     }
   };
   const NodeEnd end = side_ == Side::earlier ? NodeEnd::first : NodeEnd::last;
-  const bool try_hint = tightness == Tightness::tight && hint != kNoNode &&
-                        hint != captured_partner(node) && join_viseme(table(), end, node) >= 0 &&
-                        join_viseme(table(), candidate_end(side_), hint) >= 0;
-  if (try_hint) {
-    const bool same =
-        join_viseme(table(), end, node) == join_viseme(table(), candidate_end(side_), hint);
-    consider_join(*find(hint), same ? 0.0 : kernels_.cost.weights().pnt);
+  const NodeIndex partner = captured_partner(node);
+  std::array<NodeIndex, 2 * LeastJoins::kMost> tried;
+  std::size_t tried_count = 0;
+  for (const LeastJoins::Join& known : least.joins()) {
+    tried[tried_count++] = known.node;
+  }
+  const auto is_new = [&](NodeIndex candidate) {
+    const auto end_of_tried = tried.begin() + static_cast<std::ptrdiff_t>(tried_count);
+    return std::find(tried.begin(), end_of_tried, candidate) == end_of_tried;
+  };
+  if (tightness == Tightness::tight && least.joins().empty() &&
+      join_viseme(table(), end, node) >= 0) {
+    for (const LeastJoins::Join& hint : hints) {
+      const std::int32_t viseme = join_viseme(table(), candidate_end(side_), hint.node);
+      if (hint.node != partner && viseme >= 0) {
+        const bool same = join_viseme(table(), end, node) == viseme;
+        consider_join(*find(hint.node), same ? 0.0 : kernels_.cost.weights().pnt);
+        tried[tried_count++] = hint.node;
+      }
+    }
   }
   visit_joins(
-      node, counts, most,
+      node, counts, [&] { return least.limit(); },
       [&](const EndTree::Entry& entry, double transition) {
-        consider(entry, entry.value + transition);
-        return false; // later ones are not less
+        if (is_new(entry.node)) {
+          least.consider(entry, transition);
+        }
+        return true;
       },
       [&](const EndTree::Entry& entry, double other_viseme, double bound) {
+        if (!is_new(entry.node)) {
+          return;
+        }
         if (tightness == Tightness::rough) {
-          consider(entry, bound);
-        } else if (!try_hint || entry.node != hint) {
+          least.consider(entry, std::max(0.0, (bound - entry.value) * kBelow));
+        } else {
           consider_join(entry, other_viseme);
         }
       });
-  return best;
 }
 
 } // namespace phonomime

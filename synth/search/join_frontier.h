@@ -7,6 +7,7 @@
 #include "synth/search/linear_features.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <utility>
@@ -65,6 +66,49 @@ public:
     std::int64_t transitions = 0;
   };
 
+  // The joins of one node that are least, by lower bounds.
+  class LeastJoins {
+  public:
+    static constexpr std::size_t kMost = 4;
+    struct Join {
+      NodeIndex node = kNoNode; // the candidate
+      double join = kInfinity;  // at most TC
+      double value = kInfinity; // the candidate's + join
+    };
+
+    // At most `most` (up to kMost) joins, none above `limit`.
+    explicit LeastJoins(std::size_t most = 1, double limit = kInfinity)
+        : most_(most), limit_(limit) {}
+
+    // By value.
+    std::span<const Join> joins() const { return std::span(joins_).first(size_); }
+    // With every other candidate the value + TC is at least this.
+    double limit() const { return limit_; }
+    double value() const { return size_ == 0 ? kInfinity : joins_[0].value; }
+    NodeIndex node() const { return joins_[0].node; }
+
+    void consider(const EndTree::Entry& entry, double join) {
+      const double value = entry.value + join;
+      if (value > limit_ || (size_ == most_ && value == limit_)) {
+        return;
+      }
+      std::size_t place = size_ < most_ ? size_++ : size_ - 1;
+      for (; place > 0 && joins_[place - 1].value > value; --place) {
+        joins_[place] = joins_[place - 1];
+      }
+      joins_[place] = {entry.node, join, value};
+      if (size_ == most_) {
+        limit_ = std::min(limit_, joins_[size_ - 1].value);
+      }
+    }
+
+  private:
+    std::size_t most_;
+    double limit_;
+    std::size_t size_ = 0;
+    std::array<Join, kMost> joins_;
+  };
+
   // The least (value + TC) + penalty over the candidates, for a join with `node`, ties to the
   // smallest candidate; nothing above `limit` is found. `kernels` must know all nodes. Thread-safe.
   Best best_join(NodeIndex node, double penalty, double limit, Counts& counts) const;
@@ -78,10 +122,13 @@ public:
     std::span<const NodeIndex> nodes; // each once; much the faster where neighbours are alike
     Tightness tightness = Tightness::rough;
     std::span<const double> limits; // one a node, or none at all: nothing above is found
+    // One a node, in place of limits: what is known, by the present values, and needs no look.
+    // As many joins are looked for as it may hold; else only the least one.
+    std::span<const LeastJoins> known;
   };
-  // For every node i a lower bound of the least value + TC for a join with it, with the candidate
-  // that has it: calls found(i, node, best) over threads. Rough bounds ask for nothing that
-  // JoinKernels::ensure() makes.
+  // For every node i the candidates with the least lower bounds of value + TC: calls
+  // found(i, node, least) over threads. Rough bounds ask for nothing that JoinKernels::ensure()
+  // makes.
   template <typename Found>
   void bound_joins(const BoundOptions& options, Counts& counts, const Found& found) const;
 
@@ -95,9 +142,9 @@ private:
   void visit_joins(NodeIndex node, Counts& counts, const Limit& limit, const Known& known,
                    const Join& join) const;
 
-  // `hint` is a candidate to try first, or kNoNode.
-  Best bound_join(NodeIndex node, Tightness tightness, double limit, NodeIndex hint,
-                  Counts& counts) const;
+  // Adds to `least`, which may hold some already; the candidates in `hints` are tried first.
+  void bound_join(NodeIndex node, Tightness tightness, std::span<const LeastJoins::Join> hints,
+                  LeastJoins& least, Counts& counts) const;
 
   std::pair<NodeIndex, NodeIndex> in_time(NodeIndex candidate, NodeIndex node) const {
     return side_ == Side::earlier ? std::pair(candidate, node) : std::pair(node, candidate);
@@ -150,13 +197,15 @@ void JoinFrontier::bound_joins(const BoundOptions& options, Counts& counts,
   for_each_in_parallel(
       (size + kChunk - 1) / kChunk, counts,
       [&](std::size_t chunk, Counts& own) {
-        NodeIndex hint = kNoNode;
+        LeastJoins before;
         for (std::size_t i = chunk * kChunk; i < std::min(size, (chunk + 1) * kChunk); ++i) {
-          const Best best =
-              bound_join(options.nodes[i], options.tightness,
-                         options.limits.empty() ? kInfinity : options.limits[i], hint, own);
-          found(i, options.nodes[i], best);
-          hint = best.node;
+          LeastJoins least(1, options.limits.empty() ? kInfinity : options.limits[i]);
+          if (!options.known.empty()) {
+            least = options.known[i];
+          }
+          bound_join(options.nodes[i], options.tightness, before.joins(), least, own);
+          found(i, options.nodes[i], std::as_const(least));
+          before = least;
         }
       },
       1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "synth/search/join_frontier.h"
+#include "synth/search/kept_joins.h"
 #include "synth/search/step_costs.h"
 
 #include <span>
@@ -54,14 +55,24 @@ public:
   StepBounds border(const StepPenalties& penalties) const;
 
   // Bounds at a step, from those at its neighbour on the side.
+  // `kept` is filled for renew() where it is given.
   StepBounds next(const StepPenalties& penalties, const StepBounds& neighbour,
-                  const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts) const;
+                  const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts,
+                  KeptJoins* kept = nullptr) const;
+
+  // Has the bounds of the active nodes rise after those at the neighbouring step have risen, or
+  // nodes have been taken away there. Where the least join of a node may be none of those kept,
+  // they are looked for again if its penalty + bound is at most `within` above the step's least;
+  // other bounds hold, but need not be tight.
+  void renew(StepBounds& bounds, KeptJoins& kept, const StepPenalties& penalties,
+             const StepBounds& neighbour, const StepPenalties& neighbour_penalties, double within,
+             JoinFrontier::Counts& counts) const;
 
   // Bounds of these nodes (ascending) alone, from those of the neighbouring step; infinite for one
   // whose bound is above its limit (as many as nodes).
   StepBounds bounds_of(std::vector<NodeIndex> nodes, std::span<const double> limits,
                        const StepBounds& neighbour, const StepPenalties& neighbour_penalties,
-                       JoinFrontier::Counts& counts) const;
+                       JoinFrontier::Counts& counts, KeptJoins* kept = nullptr) const;
 
   // Whose join gave the bound of `node` in `own`, if that is known and not blocked; else the one of
   // the neighbour's active nodes with the least rough bound for a join with it.
@@ -69,7 +80,28 @@ public:
                     const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts) const;
 
 private:
+  // What bounds_of() and renew() know of the neighbouring step.
+  struct Ahead {
+    Ahead(const StepBounds& neighbour, const StepPenalties& penalties);
+    std::span<const NodeIndex> nodes; // its active ones
+    std::vector<double> values;       // of these: penalty + bound
+    double least = 0.0;               // of the values
+    double least_inactive = 0.0;      // at most the value of any other
+  };
+
   JoinFrontier frontier(const StepBounds& neighbour, const StepPenalties& penalties) const;
+
+  // Which of the active nodes to look for joins of, by their places.
+  struct Wanted {
+    std::vector<std::size_t> places;
+    // One of the two, of these; as JoinFrontier::BoundOptions has them.
+    std::vector<double> limits;
+    std::vector<JoinFrontier::LeastJoins> known;
+  };
+  void look(StepBounds& bounds, const Wanted& wanted, const Ahead& ahead, KeptJoins* kept,
+            JoinFrontier::Counts& counts) const;
+  // Has places whose nodes' ends are alike stand near each other.
+  void sort_by_ends(std::vector<std::size_t>& places, std::span<const NodeIndex> nodes) const;
 
   JoinKernels& kernels_;
   JoinFrontier::Side side_;

@@ -5,6 +5,7 @@
 #include "synth/search/thread_count.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 
@@ -12,61 +13,83 @@ namespace phonomime {
 
 namespace {
 
-// In PNT. Bounds of an earlier search are used again as long as the path that is sought costs at
-// most so much more than theirs did; beyond, new bounds are sooner made than too many states kept.
-constexpr double kStillTight = 2.0;
+// In PNT. Active nodes that were the near ones go on to be as long as near reaches less further.
+constexpr double kStillNear = 0.5;
 
-// Bounds of all that follows each step.
-std::vector<StepBounds> bounds_to_go(JoinKernels& kernels, std::span<const StepPenalties> penalties,
-                                     const Progress& progress, JoinFrontier::Counts& counts) {
-  const RelaxedRecursion recursion(kernels, JoinFrontier::Side::later);
-  std::vector<StepBounds> to_go(penalties.size());
-  to_go.back() = recursion.border(penalties.back());
-  for (std::size_t t = penalties.size() - 1; t-- > 0;) {
-    progress.update("search", 0, static_cast<std::int64_t>(penalties.size()));
-    to_go[t] = recursion.next(penalties[t], to_go[t + 1], penalties[t + 1], counts);
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// In PNT. Renewed bounds are made tight that far above the least of a step, then further, until
+// they say to `kTight` what the best path costs; rough joins at pauses leave some of that.
+constexpr std::array<double, 3> kWithin = {1.0, 2.0, kInfinity};
+constexpr double kTight = 1.0;
+
+// Bounds of all that follows each step, for one path after another.
+class BoundsToGo {
+public:
+  // `further`: whether renew() is to come.
+  BoundsToGo(JoinKernels& kernels, const Progress& progress, bool further)
+      : recursion_(kernels, JoinFrontier::Side::later), progress_(progress), further_(further),
+        near_enough_(kStillNear * kernels.cost.weights().pnt) {}
+
+  void make(std::span<const StepPenalties> penalties, JoinFrontier::Counts& counts) {
+    steps_.assign(penalties.size(), {});
+    kept_.resize(further_ ? penalties.size() : 0);
+    for (std::size_t t = penalties.size(); t-- > 0;) {
+      make_step(t, penalties, counts);
+    }
   }
-  return to_go;
-}
 
-// A real path: from the start of least bound along the joins that the bounds took.
-std::vector<NodeIndex> path_along(std::span<const StepBounds> to_go, JoinKernels& kernels,
-                                  std::span<const StepPenalties> penalties,
-                                  JoinFrontier::Counts& counts) {
+  // After nodes have been taken away, and none given back. `within`: RelaxedRecursion::renew().
+  void renew(std::span<const StepPenalties> penalties, double within,
+             JoinFrontier::Counts& counts) {
+    for (std::size_t t = penalties.size(); t-- > 0;) {
+      if (penalties[t].near() > steps_[t].active_penalty + near_enough_) {
+        make_step(t, penalties, counts);
+      } else if (t + 1 < penalties.size()) {
+        progress_.update("search", 0, static_cast<std::int64_t>(penalties.size()));
+        recursion_.renew(steps_[t], kept_[t], penalties[t], steps_[t + 1], penalties[t + 1], within,
+                         counts);
+      }
+    }
+  }
+
+  const std::vector<StepBounds>& steps() const { return steps_; }
+
+private:
+  void make_step(std::size_t t, std::span<const StepPenalties> penalties,
+                 JoinFrontier::Counts& counts) {
+    progress_.update("search", 0, static_cast<std::int64_t>(penalties.size()));
+    steps_[t] = t + 1 == penalties.size()
+                    ? recursion_.border(penalties[t])
+                    : recursion_.next(penalties[t], steps_[t + 1], penalties[t + 1], counts,
+                                      further_ ? &kept_[t] : nullptr);
+  }
+
+  RelaxedRecursion recursion_;
+  const Progress& progress_;
+  bool further_;
+  double near_enough_;
+  std::vector<StepBounds> steps_;
+  std::vector<KeptJoins> kept_; // per step, where further_
+};
+
+// What is known of the cost of the best path.
+struct CostRange {
+  double lower = 0.0;
+  double upper = 0.0; // the cost of a real path
+};
+
+// The real path goes from the start of least bound along the joins that the bounds took.
+CostRange cost_range(std::span<const StepBounds> to_go, JoinKernels& kernels,
+                     std::span<const StepPenalties> penalties, JoinFrontier::Counts& counts) {
   const RelaxedRecursion recursion(kernels, JoinFrontier::Side::later);
-  std::vector<NodeIndex> path = {*std::ranges::min_element(
-      to_go[0].active, {}, [&](NodeIndex start) { return penalties[0][start] + to_go[0][start]; })};
+  const auto value = [&](NodeIndex start) { return penalties[0][start] + to_go[0][start]; };
+  std::vector<NodeIndex> path = {*std::ranges::min_element(to_go[0].active, {}, value)};
+  const double lower = value(path[0]);
   for (std::size_t t = 1; t < penalties.size(); ++t) {
     path.push_back(recursion.partner(path.back(), to_go[t - 1], to_go[t], penalties[t], counts));
   }
-  return path;
-}
-
-// The cost of a real path, which bounds that hold but are not tight lead to: the best one by the
-// few nodes of every step whose bounds are least.
-double cost_by_few(SearchSpace& space, std::span<const SearchStep> steps,
-                   std::span<const StepPenalties> penalties, std::span<const StepBounds> to_go,
-                   const Progress& progress, JoinFrontier::Counts& counts) {
-  constexpr std::size_t kFew = 64;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::vector<StepBounds> few(to_go.begin(), to_go.end());
-  for (std::size_t t = 0; t < few.size(); ++t) {
-    std::vector<double> ahead;
-    for (std::size_t i = 0; i < few[t].active.size(); ++i) {
-      ahead.push_back(penalties[t][few[t].active[i]] + few[t].bound[i]);
-    }
-    const std::size_t last = std::min(kFew, ahead.size()) - 1;
-    std::ranges::nth_element(ahead, ahead.begin() + static_cast<std::ptrdiff_t>(last));
-    const double most = ahead[last];
-    few[t].keep_if([&](NodeIndex node, double bound) {
-      const double value = penalties[t][node] + bound;
-      return value <= most && value < kInfinity;
-    });
-    few[t].active_penalty = kInfinity;
-    few[t].inactive_bound = kInfinity;
-  }
-  const LatticeInput input{steps, penalties, few, space.kernels, progress};
-  return best_path(input, exact_lattice(input, kInfinity, counts)).cost;
+  return {lower, cost_of_path(kernels, penalties, path, counts)};
 }
 
 // `step` without the nodes in `used` (ascending), unless that would leave none of `near`.
@@ -100,23 +123,20 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
   }
   const ThreadCount threads(options.threads);
   JoinFrontier::Counts counts;
-  std::vector<StepBounds> to_go;
+  BoundsToGo to_go(space_.kernels, progress, count > 1);
+  const auto range = [&](std::span<const StepPenalties> penalties) {
+    return cost_range(to_go.steps(), space_.kernels, penalties, counts);
+  };
   const auto search = [&](std::span<const SearchStep> asked,
                           std::span<const StepPenalties> penalties, double upper_bound,
                           int runners_up) {
     return exact_search(
-        space_, asked, penalties, upper_bound, [&](double) { return to_go; },
+        space_, asked, penalties, upper_bound, [&](double) { return to_go.steps(); },
         {.runners_up = runners_up}, progress, counts);
   };
-  const auto solve = [&](std::span<const SearchStep> asked,
-                         std::span<const StepPenalties> penalties, int runners_up) {
-    to_go = bounds_to_go(space_.kernels, penalties, progress, counts);
-    const std::vector<NodeIndex> path = path_along(to_go, space_.kernels, penalties, counts);
-    return search(asked, penalties, cost_of_path(space_.kernels, penalties, path, counts),
-                  runners_up);
-  };
   const std::vector<StepPenalties> free = space_.penalties(steps);
-  paths.best = solve(steps, free, options.runners_up);
+  to_go.make(free, counts);
+  paths.best = search(steps, free, range(free).upper, options.runners_up);
   if (count <= 1 || (goes_on && !goes_on(paths.best.path))) {
     return paths;
   }
@@ -125,8 +145,7 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
     near.push_back(penalties.nodes_up_to(penalties.near()));
   }
   std::vector<NodeIndex> used = paths.best.path.nodes;
-  double cost_of_bounds = paths.best.path.cost; // of the path that to_go was made for
-  std::vector<SearchStep> bounded(steps.begin(), steps.end());
+  std::vector<SearchStep> bounded(steps.begin(), steps.end()); // what to_go was made for
   while (static_cast<int>(paths.others.size()) + 1 < count) {
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -141,19 +160,22 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
     for (std::size_t t = 0; t < steps.size(); ++t) {
       penalties.push_back(free[t].under(rest[t], dearer / static_cast<double>(steps.size())));
     }
-    // Bounds of an earlier search go on to hold where bans have only been added.
-    double upper_bound = std::numeric_limits<double>::infinity();
+    CostRange cost;
     if (std::ranges::equal(bounded, rest, avoids_no_more)) {
-      upper_bound = cost_by_few(space_, rest, penalties, to_go, progress, counts);
-    }
-    if (upper_bound - cost_of_bounds <= kStillTight * space_.weights.pnt) {
-      paths.others.push_back(search(rest, penalties, upper_bound, 0).path);
+      for (const double within : kWithin) {
+        to_go.renew(penalties, within == kInfinity ? within : within * space_.weights.pnt, counts);
+        cost = range(penalties);
+        if (cost.upper - cost.lower <= kTight * space_.weights.pnt) {
+          break;
+        }
+      }
     } else {
-      paths.others.push_back(solve(rest, penalties, 0).path);
-      cost_of_bounds = paths.others.back().cost;
-      bounded = rest;
+      to_go.make(penalties, counts);
+      cost = range(penalties);
     }
+    paths.others.push_back(search(rest, penalties, cost.upper, 0).path);
     used.insert(used.end(), paths.others.back().nodes.begin(), paths.others.back().nodes.end());
+    bounded = std::move(rest);
   }
   return paths;
 }

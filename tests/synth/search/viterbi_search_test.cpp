@@ -94,6 +94,21 @@ std::vector<NodePath> judged_disjoint_paths(const MotionTable& table, const Cost
   return paths;
 }
 
+void expect_disjoint_paths_as_judged(const MotionTable& table, const CostWeights& weights,
+                                     const std::vector<SearchStep>& steps, int count) {
+  const std::vector<NodePath> judged = judged_disjoint_paths(table, weights, steps, count);
+  ViterbiSearch search(table, weights);
+  for (const int threads : {1, 2}) {
+    const DisjointPaths found = search.solve_disjoint(steps, count, {.threads = threads});
+    ASSERT_EQ(found.others.size() + 1, judged.size());
+    for (std::size_t k = 0; k < judged.size(); ++k) {
+      const NodePath& path = k == 0 ? found.best.path : found.others[k - 1];
+      ASSERT_EQ(path.cost, judged[k].cost) << k;
+      ASSERT_EQ(path.nodes, judged[k].nodes) << k;
+    }
+  }
+}
+
 TEST(ViterbiSearch, finds_disjoint_paths_one_after_another) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -104,21 +119,29 @@ TEST(ViterbiSearch, finds_disjoint_paths_one_after_another) {
     shape.dimensions = 1 + draw.below(3 * shape.groups);
     shape.emotions = 1 + draw.below(3);
     shape.phonemes = 1 + draw.below(5);
+    shape.duplicate_chance = seed % 5 == 0 ? 0.5 : 0.0;
     const MotionTable table = test::random_table(shape, draw);
     const CostWeights weights = test::random_weights(draw);
     const std::vector<SearchStep> steps = test::random_steps(table, 1 + draw.below(8), draw);
-    const int count = 1 + draw.below(6);
-    const std::vector<NodePath> judged = judged_disjoint_paths(table, weights, steps, count);
-    ViterbiSearch search(table, weights);
-    for (const int threads : {1, 2}) {
-      const DisjointPaths found = search.solve_disjoint(steps, count, {.threads = threads});
-      ASSERT_EQ(found.others.size() + 1, judged.size());
-      for (std::size_t k = 0; k < judged.size(); ++k) {
-        const NodePath& path = k == 0 ? found.best.path : found.others[k - 1];
-        ASSERT_EQ(path.cost, judged[k].cost) << k;
-        ASSERT_EQ(path.nodes, judged[k].nodes) << k;
-      }
-    }
+    ASSERT_NO_FATAL_FAILURE(
+        expect_disjoint_paths_as_judged(table, weights, steps, 1 + draw.below(6)));
+  }
+}
+
+TEST(ViterbiSearch, finds_disjoint_paths_in_larger_databases) {
+  // Enough nodes a step that most joins are kept from path to path.
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Draw draw(seed);
+    test::TableShape shape;
+    shape.sentences = 40;
+    shape.phonemes = 2;
+    shape.visemes = 2;
+    shape.emotions = 1 + draw.below(2);
+    const MotionTable table = test::random_table(shape, draw);
+    const std::vector<SearchStep> steps = test::random_steps(table, 8, draw, 0.02, 0.2);
+    ASSERT_NO_FATAL_FAILURE(
+        expect_disjoint_paths_as_judged(table, test::random_weights(draw), steps, 8));
   }
 }
 
