@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -57,15 +58,18 @@ EmotionSpan parse_span(std::string_view line, std::string_view where) {
                                     ? "Give the label a length: a point in time shows no emotion."
                                     : "Swap the two times."});
   }
-  const EmotionModifier modifier = parse_emotion_modifier(words[2], where);
-  if (words.size() == 4 && words[2].find(':') != std::string_view::npos) {
+  const bool mixed = words[2].find('+') != std::string_view::npos;
+  const EmotionMixture mixture = parse_emotion_mixture(words[2], where);
+  if (words.size() == 4 && (mixed || words[2].find(':') != std::string_view::npos)) {
     throw InputError({.where = std::string(where),
                       .what = "an intensity is given twice",
                       .expected = std::string(kLineForm),
                       .got = quoted(line)});
   }
-  span.emotion = modifier.emotion;
-  span.intensity = words.size() == 4 ? parse_intensity(words[3], where) : modifier.intensity;
+  span.emotion = mixture.heaviest.emotion;
+  span.intensity =
+      words.size() == 4 ? parse_intensity(words[3], where) : mixture.heaviest.intensity;
+  span.others = mixture.others;
   return span;
 }
 
@@ -132,11 +136,10 @@ private:
 
 EmotionModifier parse_emotion_modifier(std::string_view text, std::string_view where) {
   if (text.find('+') != std::string_view::npos) {
-    throw InputError(
-        {.where = std::string(where),
-         .what = fmt::format("{} mixes emotions", quoted(text)),
-         .expected = "one emotion",
-         .remedy = "Mixtures need the style model, which this version does not have."});
+    throw InputError({.where = std::string(where),
+                      .what = fmt::format("{} mixes emotions", quoted(text)),
+                      .expected = "one emotion",
+                      .remedy = "Mixtures are for --emotion and emotion tracks."});
   }
   const std::size_t colon = text.find(':');
   EmotionModifier modifier{.emotion = std::string(text.substr(0, colon))};
@@ -150,6 +153,53 @@ EmotionModifier parse_emotion_modifier(std::string_view text, std::string_view w
     modifier.intensity = parse_intensity(text.substr(colon + 1), where);
   }
   return modifier;
+}
+
+EmotionMixture parse_emotion_mixture(std::string_view text, std::string_view where) {
+  std::vector<EmotionModifier> parts;
+  double sum = 0.0;
+  for (std::size_t first = 0; first <= text.size();) {
+    const std::size_t end = std::min(text.find('+', first), text.size());
+    parts.push_back(parse_emotion_modifier(text.substr(first, end - first), where));
+    sum += parts.back().intensity;
+    first = end + 1;
+    if (std::ranges::count(parts, parts.back().emotion, &EmotionModifier::emotion) > 1) {
+      throw InputError(
+          {.where = std::string(where),
+           .what = fmt::format("{} names {} twice", quoted(text), parts.back().emotion),
+           .expected = "each emotion once"});
+    }
+  }
+  if (sum > kLargestIntensity + 1e-9) {
+    throw InputError(
+        {.where = std::string(where),
+         .what = fmt::format("the intensities of {} are too large together", quoted(text)),
+         .expected = fmt::format("{} at most", kLargestIntensity),
+         .got = format_number(sum),
+         .remedy = "Give each emotion its share, as in happiness:0.6+anger:0.3."});
+  }
+  const auto heaviest = std::ranges::max_element(parts, {}, &EmotionModifier::intensity);
+  EmotionMixture mixture{.heaviest = *heaviest};
+  parts.erase(heaviest);
+  mixture.others = std::move(parts);
+  return mixture;
+}
+
+std::string format_emotions(const EmotionMixture& mixture) {
+  const auto text_of = [](const EmotionModifier& part) {
+    return part.intensity == 1.0 ? part.emotion
+                                 : part.emotion + ":" + format_number(part.intensity);
+  };
+  std::string text = text_of(mixture.heaviest);
+  for (const EmotionModifier& part : mixture.others) {
+    text += "+" + text_of(part);
+  }
+  return text;
+}
+
+EmotionMixture mixture_of(const EmotionSpan& span) {
+  return {.heaviest = {.emotion = span.emotion, .intensity = span.intensity},
+          .others = span.others};
 }
 
 EmotionTrack parse_emotion_track(std::string_view text, std::string_view where) {

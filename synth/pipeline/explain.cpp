@@ -45,6 +45,11 @@ std::string runners_up_text(const nlohmann::json& row) {
   return text;
 }
 
+// What is shown: by the style model, else as the search was asked.
+std::string emotion_text(const nlohmann::json& row) {
+  return row.value("asked", row["emotion"].get<std::string>());
+}
+
 std::size_t longest_key(const nlohmann::json& path) {
   std::size_t longest = 4;
   for (const nlohmann::json& row : path) {
@@ -96,17 +101,23 @@ std::string explain_result(std::string_view json_text, std::string_view where) {
   for (const nlohmann::json& row : path) {
     const bool has_node = row["node"].is_string();
     const std::string node = has_node ? row["node"].get<std::string>() : "-";
-    text +=
-        fmt::format("{:>3}  {:>7.3f}  {:>7.3f}  {:<4}  {:<10}  {:<{}}  {:<8}  {:>8.1f}  {:>8.1f}  "
-                    "{:>7.1f}  {:>10.1f}  {}",
-                    row["index"].get<long>(), row["start"].get<double>(), row["end"].get<double>(),
-                    row["phoneme"].get<std::string>(), row["emotion"].get<std::string>(), node,
-                    width, join_word(row, first), row["cost"]["observation"].get<double>(),
-                    row["cost"]["emotion"].get<double>(), fit_cost(row["cost"]),
-                    row["cost"]["transition"].get<double>(), runners_up_text(row));
+    text += fmt::format(
+        "{:>3}  {:>7.3f}  {:>7.3f}  {:<4}  {:<10}  {:<{}}  {:<8}  {:>8.1f}  {:>8.1f}  "
+        "{:>7.1f}  {:>10.1f}  {}",
+        row["index"].get<long>(), row["start"].get<double>(), row["end"].get<double>(),
+        row["phoneme"].get<std::string>(), emotion_text(row), node, width, join_word(row, first),
+        row["cost"]["observation"].get<double>(), row["cost"]["emotion"].get<double>(),
+        fit_cost(row["cost"]), row["cost"]["transition"].get<double>(), runners_up_text(row));
     text.erase(text.find_last_not_of(' ') + 1);
     text += row["constrained"].get<bool>() ? "  [use]\n" : "\n";
     first = first && !has_node;
+  }
+  if (result.contains("style")) {
+    const nlohmann::json& style = result["style"];
+    text += fmt::format("style: changed by {:.2f} (root mean square, mm a marker or weight); {} of "
+                        "{} contacts of the lips held, {} could not be\n",
+                        style["change"].get<double>(), style["contacts_moved"].get<int>(),
+                        style["contacts"].get<int>(), style["contacts_left"].get<int>());
   }
   for (const nlohmann::json& warning : result["warnings"]) {
     text += "warning: " + warning.get<std::string>() + "\n";

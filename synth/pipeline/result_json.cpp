@@ -30,6 +30,9 @@ nlohmann::ordered_json row_to_json(const MotionTable& table, const PathRow& row,
       json["recorded"]["closed"] = *closed;
     }
   }
+  if (row.asked) {
+    json["asked"] = format_emotions(*row.asked);
+  }
   json["cost"] = {{"observation", row.cost.observation}, {"emotion", row.cost.emotion},
                   {"transition", row.cost.transition},   {"target", row.cost.fit.target},
                   {"context", row.cost.fit.context},     {"duration", row.cost.fit.duration},
@@ -67,6 +70,12 @@ nlohmann::ordered_json result_to_json(const MotionTable& table, const SynthesisR
                                       : nlohmann::ordered_json(table.key(node)));
     }
     json["blend"].push_back({{"weight", path.weight}, {"cost", path.cost}, {"nodes", nodes}});
+  }
+  if (result.style) {
+    json["style"] = {{"change", result.style->change},
+                     {"contacts", result.style->contacts},
+                     {"contacts_moved", result.style->contacts_moved},
+                     {"contacts_left", result.style->contacts_left}};
   }
   json["search"] = {{"nodes", table.nodes.size()},
                     {"seconds", result.search_seconds},

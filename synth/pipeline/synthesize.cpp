@@ -3,6 +3,7 @@
 
 #include "synth/concat/resample.h"
 #include "synth/pipeline/path_steps.h"
+#include "synth/pipeline/style_path.h"
 #include "synth/pipeline/transcript_steps.h"
 
 #include <algorithm>
@@ -140,8 +141,11 @@ SynthesisResult synthesize(const MotionTable& table, ViterbiSearch& search,
   const std::vector<FrameMatrixD> expected = expected_motions(search.space(), steps, result);
   share_weights(input, !expected.empty(), result);
   result.motion = concatenate(table, steps_of_paths(table, input, result), expected, input.concat);
-  result.output = resample_motion(result.motion, input.fps, result.end_s);
   result.warnings = std::move(steps.warnings);
+  if (input.style.model != nullptr) {
+    style_path(table, input, result);
+  }
+  result.output = resample_motion(result.motion, input.fps, result.end_s);
   return result;
 }
 

@@ -89,16 +89,6 @@ std::int32_t find_asked_emotion(const MotionTable& table, const EmotionModifier&
                       .expected = fmt::format("one of {}", fmt::join(table.emotions, ", ")),
                       .remedy = did_you_mean(asked.emotion, table.emotions)});
   }
-  if (asked.intensity != 1.0) {
-    throw InputError({.where = std::string(where),
-                      .what = fmt::format("emotion {} is asked for at another intensity than as "
-                                          "recorded",
-                                          quoted(asked.emotion)),
-                      .expected = "1",
-                      .got = format_number(asked.intensity),
-                      .remedy = "Intensities need the style model, which this version does not "
-                                "have yet."});
-  }
   return *emotion;
 }
 

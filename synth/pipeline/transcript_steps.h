@@ -27,7 +27,7 @@ struct TranscriptSteps {
 };
 
 // Into MotionTable::emotions. `where` names the place of the request. Throws InputError for an
-// emotion that the table does not have, and for an intensity other than 1.
+// emotion that the table does not have. Its intensity is not looked at: that is the style's.
 std::int32_t find_asked_emotion(const MotionTable& table, const EmotionModifier& asked,
                                 std::string_view where);
 
@@ -47,9 +47,8 @@ private:
 };
 
 // `emotions`: one for each row. Throws InputError (which names file and line) for an emotion that
-// the database does not have, an intensity other than 1, and a constraint that cannot be met: an
-// unknown, ambiguous or pruned node, a row or time outside the transcript, `use` and `avoid` that
-// leave nothing.
+// the database does not have, and a constraint that cannot be met: an unknown, ambiguous or pruned
+// node, a row or time outside the transcript, `use` and `avoid` that leave nothing.
 TranscriptSteps make_transcript_steps(const MotionTable& table,
                                       std::span<const TimedPhoneme> transcript,
                                       std::span<const EmotionModifier> emotions,

@@ -34,12 +34,12 @@ private:
 bool asks_for_contact(std::string_view phoneme);
 
 // Where the smallest aperture of a phoneme lies in the recordings: 10th and 90th percentile.
-struct ContactRange {
+struct RecordedContact {
   double least_mm = 0.0, most_mm = 0.0;
 };
 
 // By phoneme, of those that ask for contact and were recorded.
-using ContactRanges = std::map<std::string, ContactRange, std::less<>>;
+using ContactRanges = std::map<std::string, RecordedContact, std::less<>>;
 ContactRanges recorded_contacts(const MotionTable& table, const CoefficientAperture& aperture);
 
 // One phoneme of a motion.

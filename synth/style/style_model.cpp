@@ -131,7 +131,8 @@ MotionStyler::MotionStyler(const StyleModel& model, const Layout& layout, const 
       aperture_(CoefficientAperture::of(layout, pca)) {}
 
 StyledMotion MotionStyler::apply(const StyleRequest& request) const {
-  const Eigen::MatrixXd shown = glide(request.shown, request.rate_hz, request.glide_s);
+  const Eigen::MatrixXd shown =
+      glide(request.shown, request.rate_hz, request.shown_glide_s.value_or(request.glide_s));
   const Eigen::MatrixXd wanted = glide(request.wanted, request.rate_hz, request.glide_s);
   StyledMotion styled;
   warn_of_range(*model_, wanted, styled.warnings);

@@ -65,6 +65,8 @@ struct StyleRequest {
   // (mixture_weights); a column sums to 1.
   Eigen::MatrixXd shown, wanted;
   double glide_s = 0.3; // over which a change of style is spread
+  // Over which what the motion shows changes; empty: glide_s.
+  std::optional<double> shown_glide_s;
 };
 
 struct StyledMotion {

@@ -45,7 +45,7 @@ FEW_FILES = {
     "libsndfile": (re.compile(r"^sndfile\.h"), 1),
     "OpenSSL": (re.compile(r"^openssl/"), 1),
     "NLopt": (re.compile(r"^nlopt"), 1),
-    "CLI11": (re.compile(r"^CLI/"), 8),
+    "CLI11": (re.compile(r"^CLI/"), 9),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]*)"|<([^>]*)>)')

@@ -4,6 +4,7 @@
 #include "db/store/motion_database.h"
 #include "db/types/file_io.h"
 #include "tools/app/batch_record.h"
+#include "tools/app/borrowed_style.h"
 #include "tools/app/fingerprint.h"
 #include "tools/app/manifest.h"
 #include "tools/app/synth_stock.h"
@@ -27,8 +28,9 @@ double seconds_since(Clock::time_point begin) {
 
 // One speaker's recordings.
 struct Recordings {
-  explicit Recordings(MotionTable table) : stock(std::move(table)) {
-    table_fingerprint = fingerprint(stock.table());
+  Recordings(MotionTable table, const std::filesystem::path& database)
+      : stock(std::move(table), database) {
+    table_fingerprint = fingerprint(stock.table()) + style_models_fingerprint(database);
   }
   SynthStock stock;
   std::string table_fingerprint;
@@ -98,7 +100,7 @@ std::map<std::string, Recordings> load_recordings(const BatchOptions& options,
       continue;
     }
     try {
-      recordings.try_emplace(speaker, database.load_motion_table(speaker));
+      recordings.try_emplace(speaker, database.load_motion_table(speaker), options.synth.database);
     } catch (const InputError& error) {
       if (speaker == options.synth.speaker) {
         throw;

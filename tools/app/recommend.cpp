@@ -9,6 +9,7 @@
 #include "synth/search/search_session.h"
 #include "tools/app/option_checks.h"
 #include "tools/app/phoneme_maps.h"
+#include "tools/app/style_plan.h"
 #include "tools/app/synth_inputs.h"
 
 #include <algorithm>
@@ -214,8 +215,10 @@ RecommendReport recommend_nodes(const RecommendOptions& options, const Progress&
   const MotionTable table = database.load_motion_table(options.synth.speaker);
   RecommendReport report;
   const CostModel model = options.synth.cost.value_or(kUsualCost);
-  const SynthesisInput input =
-      read_synthesis_input(options.synth, table, default_cost_weights(table, model), report.notes);
+  AskedEmotions emotions;
+  const SynthesisInput input = read_synthesis_input(
+      options.synth, table, default_cost_weights(table, model), emotions, report.notes);
+  check_names(emotions, table);
   TranscriptSteps steps =
       make_transcript_steps(table, input.transcript, input.emotions, input.constraints);
   const auto [row, relative_time] = find_row(options, input.transcript);

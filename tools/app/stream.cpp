@@ -7,6 +7,7 @@
 #include "synth/pipeline/synthesis_stream.h"
 #include "synth/search/streaming_search.h"
 #include "tools/app/stream_transcript.h"
+#include "tools/app/style_plan.h"
 #include "tools/app/synth_inputs.h"
 #include "tools/app/synth_outputs.h"
 #include "tools/app/synth_stock.h"
@@ -105,8 +106,9 @@ StreamReport run_stream(const StreamOptions& options, const StreamEnds& ends,
   SynthStock stock(
       MotionDatabase::open(synth.database, OpenMode::read_only).load_motion_table(synth.speaker));
   const MotionTable& table = stock.table();
-  StreamTranscript transcript(phoneme_sets_to_try(synth, table), read_asked_emotions(synth, table),
-                              "standard input");
+  const AskedEmotions emotions = read_asked_emotions(synth);
+  check_recorded(emotions, table, "a stream");
+  StreamTranscript transcript(phoneme_sets_to_try(synth, table), emotions, "standard input");
   ViterbiSearch search(table, read_weights(synth, stock.default_weights(CostModel::paper)));
   SearchChooser chooser(search, options);
   SynthesisStream stream(table, chooser,
@@ -122,7 +124,7 @@ StreamReport run_stream(const StreamOptions& options, const StreamEnds& ends,
   FrameWriter writer(table, synth, ends);
   while (const std::optional<std::string> line = ends.next_line()) {
     for (const StreamRow& row : transcript.read(*line)) {
-      find_asked_emotion(table, row.emotion, row.where);
+      check_recorded({.heaviest = row.emotion}, table, row.where, "a stream");
       writer.write(stream.push(row.phoneme, row.emotion));
     }
     warn();

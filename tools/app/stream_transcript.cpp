@@ -78,7 +78,7 @@ std::vector<StreamRow> StreamTranscript::read(std::string_view line) {
     if (phoneme.end_s > end_s_) {
       phoneme.start_s = std::max(phoneme.start_s, end_s_);
       const std::vector<EmotionModifier> emotion =
-          assign_emotions(emotions_.track, {&phoneme, 1}, emotions_.fallback);
+          assign_emotions(emotions_.track, {&phoneme, 1}, emotions_.fallback.heaviest);
       rows.push_back({std::move(phoneme), emotion.front(), where});
     }
   }

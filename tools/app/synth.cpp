@@ -4,6 +4,7 @@
 #include "db/store/motion_database.h"
 #include "synth/pipeline/result_json.h"
 #include "synth/pipeline/synthesize.h"
+#include "tools/app/style_plan.h"
 #include "tools/app/synth_inputs.h"
 #include "tools/app/synth_outputs.h"
 #include "tools/app/synth_stock.h"
@@ -31,7 +32,8 @@ void count_joins(const SynthesisResult& result, SynthReport& report) {
 SynthReport run_synth(const SynthOptions& options, const Progress& progress) {
   check_synth_options(options);
   SynthStock stock(MotionDatabase::open(options.database, OpenMode::read_only)
-                       .load_motion_table(options.speaker));
+                       .load_motion_table(options.speaker),
+                   options.database);
   SearchKeeper keeper;
   return run_synth(options, stock, keeper, progress);
 }
@@ -40,8 +42,11 @@ SynthReport run_synth(const SynthOptions& options, SynthStock& stock, SearchKeep
                       const Progress& progress) {
   const MotionTable& table = stock.table();
   SynthReport report;
-  const SynthesisInput input = read_synthesis_input(
-      options, table, stock.default_weights(options.cost.value_or(kUsualCost)), report.notes);
+  AskedEmotions emotions;
+  SynthesisInput input =
+      read_synthesis_input(options, table, stock.default_weights(options.cost.value_or(kUsualCost)),
+                           emotions, report.notes);
+  plan_style(emotions, stock, input, report.notes);
   SynthOutputs outputs(options, stock, report.notes);
   SynthesisResult result = synthesize(table, keeper.search(table, input.weights), input, progress);
   if (options.head) {

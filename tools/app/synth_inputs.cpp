@@ -9,6 +9,7 @@
 #include "db/types/text.h"
 #include "synth/pipeline/transcript_steps.h"
 #include "synth/search/cost_weights.h"
+#include "synth/style/tempo.h"
 #include "tools/app/retime.h"
 #include "tools/app/synth_outputs.h"
 
@@ -62,6 +63,24 @@ PhonemeSet choose_phoneme_set(const SynthOptions& options, const MotionTable& ta
   return std::move(chosen == sets.end() ? sets.front() : *chosen);
 }
 
+// The parts that do anything: neutral is what is left of 1 anyway, and so is an emotion of
+// intensity 0.
+EmotionMixture without_neutral(const EmotionMixture& mixture) {
+  EmotionMixture kept{.heaviest = {.emotion = "neutral"}};
+  std::vector<EmotionModifier> parts = mixture.others;
+  parts.insert(parts.begin(), mixture.heaviest);
+  std::erase_if(parts, [&](const EmotionModifier& part) {
+    return part.intensity == 0.0 || part.emotion == kept.heaviest.emotion;
+  });
+  if (!parts.empty()) { // the heaviest is first, or was neutral
+    const auto heaviest = std::ranges::max_element(parts, {}, &EmotionModifier::intensity);
+    kept.heaviest = *heaviest;
+    parts.erase(heaviest);
+    kept.others = std::move(parts);
+  }
+  return kept;
+}
+
 } // namespace
 
 std::vector<PhonemeSet> phoneme_sets_to_try(const SynthOptions& options, const MotionTable& table) {
@@ -76,22 +95,33 @@ std::vector<PhonemeSet> phoneme_sets_to_try(const SynthOptions& options, const M
   return sets;
 }
 
-AskedEmotions read_asked_emotions(const SynthOptions& options, const MotionTable& table) {
+AskedEmotions read_asked_emotions(const SynthOptions& options) {
   AskedEmotions asked;
   if (!options.emotion.empty()) {
-    asked.fallback = parse_emotion_modifier(options.emotion, "--emotion");
+    asked.fallback = without_neutral(parse_emotion_mixture(options.emotion, "--emotion"));
+    asked.fallback_given = true;
   }
   if (!options.emotions.empty()) {
     asked.track = parse_emotion_track(read_file(options.emotions), options.emotions.string());
   }
-  for (const EmotionSpan& span : asked.track.spans) {
-    find_asked_emotion(table, {.emotion = span.emotion, .intensity = span.intensity},
-                       at_line(asked.track.source, span.line));
-  }
-  if (!options.emotion.empty()) {
-    find_asked_emotion(table, asked.fallback, "--emotion");
+  for (EmotionSpan& span : asked.track.spans) {
+    EmotionMixture mixture = without_neutral(mixture_of(span));
+    span.emotion = mixture.heaviest.emotion;
+    span.intensity = mixture.heaviest.intensity;
+    span.others = std::move(mixture.others);
   }
   return asked;
+}
+
+ReadTranscript read_transcript(const SynthOptions& options, const MotionTable& table) {
+  const Alignment alignment = read_alignment(options.transcript, {.tier = options.tier});
+  check_length(alignment);
+  const PhonemeSet set = choose_phoneme_set(options, table, alignment);
+  ReadTranscript transcript{.rows = to_phonemes(alignment, set), .phoneme_set = set.name()};
+  if (transcript.rows.empty()) {
+    throw InputError({.where = options.transcript.string(), .what = "the transcript is empty"});
+  }
+  return transcript;
 }
 
 std::vector<NodeConstraint> read_constraints(const SynthOptions& options) {
@@ -111,25 +141,25 @@ ConcatOptions concat_options(const SynthOptions& options) {
 }
 
 SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTable& table,
-                                    const CostWeights& default_weights,
+                                    const CostWeights& default_weights, AskedEmotions& emotions,
                                     std::vector<std::string>& notes) {
   SynthesisInput input;
-  const Alignment alignment = read_alignment(options.transcript, {.tier = options.tier});
-  check_length(alignment);
-  const PhonemeSet set = choose_phoneme_set(options, table, alignment);
+  ReadTranscript transcript = read_transcript(options, table);
   if (options.phoneme_set.empty()) {
-    notes.push_back(
-        fmt::format("read {} with phoneme set {}", options.transcript.string(), set.name()));
+    notes.push_back(fmt::format("read {} with phoneme set {}", options.transcript.string(),
+                                transcript.phoneme_set));
   }
-  input.transcript = to_phonemes(alignment, set);
-  if (input.transcript.empty()) {
-    throw InputError({.where = options.transcript.string(), .what = "the transcript is empty"});
-  }
-  const AskedEmotions emotions = read_asked_emotions(options, table);
-  input.emotions = assign_emotions(emotions.track, input.transcript, emotions.fallback);
+  input.transcript = std::move(transcript.rows);
+  emotions = read_asked_emotions(options);
+  input.emotions = assign_emotions(emotions.track, input.transcript, emotions.fallback.heaviest);
   input.constraints = read_constraints(options);
   if (options.retime) {
+    const std::vector<TimedPhoneme> before = input.transcript;
     retime_input(table, input, notes);
+    for (EmotionSpan& span : emotions.track.spans) {
+      span.start_s = retimed_at(before, input.transcript, span.start_s);
+      span.end_s = retimed_at(before, input.transcript, span.end_s);
+    }
   }
   input.weights = read_weights(options, default_weights);
   input.blend = options.blend.value_or(kUsualBlend);

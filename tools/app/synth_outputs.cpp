@@ -102,13 +102,14 @@ std::vector<PlayerDocument::Emotion> emotion_spans(const MotionTable& table,
                                                    const std::vector<PathRow>& rows) {
   std::vector<PlayerDocument::Emotion> spans;
   for (const PathRow& row : rows) {
-    if (!spans.empty() && spans.back().emotion == row.emotion) {
+    const std::string text = row.asked ? format_emotions(*row.asked) : row.emotion;
+    if (!spans.empty() && spans.back().emotion == text) {
       spans.back().end_s = row.phoneme.end_s;
       continue;
     }
-    const std::string color =
-        emotion_color(row.emotion, table.find_emotion(row.emotion).value_or(0));
-    spans.push_back({row.phoneme.start_s, row.phoneme.end_s, row.emotion, color});
+    const std::string& heaviest = row.asked ? row.asked->heaviest.emotion : row.emotion;
+    const std::string color = emotion_color(heaviest, table.find_emotion(heaviest).value_or(0));
+    spans.push_back({row.phoneme.start_s, row.phoneme.end_s, text, color});
   }
   return spans;
 }
@@ -162,7 +163,8 @@ SynthOutputs::SynthOutputs(const SynthOptions& options, SynthStock& stock,
 }
 
 std::vector<std::filesystem::path> SynthOutputs::write(const SynthesisResult& result,
-                                                       const std::string& result_json) {
+                                                       const std::string& result_json,
+                                                       const std::string* csv) {
   OutputFiles files;
   for (const std::filesystem::path& path : options_.outputs) {
     if (options_.make_folders) {
@@ -170,7 +172,7 @@ std::vector<std::filesystem::path> SynthOutputs::write(const SynthesisResult& re
     }
     switch (output_kind(path)) {
     case OutputKind::csv:
-      files.stage(path, motion_text(result));
+      files.stage(path, csv != nullptr ? *csv : motion_text(result));
       break;
     case OutputKind::glb:
       files.stage(path, glb(result));

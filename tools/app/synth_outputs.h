@@ -29,9 +29,11 @@ public:
   // `notes` gets a line for each choice made for the user. Throws InputError and IoError.
   SynthOutputs(const SynthOptions& options, SynthStock& stock, std::vector<std::string>& notes);
 
-  // Writes all outputs or none, and returns their paths. Throws IoError.
+  // Writes all outputs or none, and returns their paths. `csv`: what a .csv holds, where that is
+  // not `result` itself. Throws IoError.
   std::vector<std::filesystem::path> write(const SynthesisResult& result,
-                                           const std::string& result_json);
+                                           const std::string& result_json,
+                                           const std::string* csv = nullptr);
 
 private:
   std::string motion_text(const SynthesisResult& result) const;

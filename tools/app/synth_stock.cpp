@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/app/synth_stock.h"
 
+#include "db/store/motion_database.h"
 #include "synth/search/cost_weights.h"
+#include "tools/app/style_models.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -30,7 +33,37 @@ std::string face_note(const MarkerFace& face, const PcaModel& pca) {
 
 } // namespace
 
-SynthStock::SynthStock(MotionTable table) : table_(std::move(table)) {}
+SynthStock::SynthStock(MotionTable table, std::filesystem::path database)
+    : table_(std::move(table)), database_(std::move(database)) {}
+
+const StyleInUse* SynthStock::style(const std::vector<std::string>& emotions) {
+  std::vector<std::string> names = emotions;
+  std::ranges::sort(names);
+  const std::scoped_lock lock(mutex_);
+  auto known = styles_.find(names);
+  if (known == styles_.end()) {
+    StyleInUse found = find_style_model(database_, table_, names);
+    known = styles_.emplace(std::move(names), std::move(found)).first;
+  }
+  return &known->second;
+}
+
+bool SynthStock::style_is_missing() const {
+  return !MotionDatabase::open(database_, OpenMode::read_only).load_style_model(table_.speaker);
+}
+
+bool SynthStock::any_style_knows(const std::string& emotion) const {
+  const MotionDatabase database = MotionDatabase::open(database_, OpenMode::read_only);
+  return std::ranges::any_of(database.speakers(), [&](const std::string& speaker) {
+    const std::optional<StoredStyleModel> stored = database.load_style_model(speaker);
+    if (!stored) {
+      return false;
+    }
+    const TrainedStyle trained = from_stored(*stored, database_.string());
+    return std::ranges::find(trained.model.known.styles, emotion) !=
+           trained.model.known.styles.end();
+  });
+}
 
 const CostWeights& SynthStock::default_weights(CostModel model) {
   const std::scoped_lock lock(mutex_);

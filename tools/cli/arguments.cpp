@@ -208,6 +208,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
   add_map(app, words);
   add_recommend(app, words);
   add_retarget(app, words);
+  add_style(app, words);
   add_common(app, words.arguments.common);
   std::vector<const char*> call(argv, argv + argc);
   if (call.size() > 2 && call[1] == std::string_view("retarget") &&
@@ -243,6 +244,8 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     take_map_words(*app.get_subcommands().front(), words);
   } else if (verb == "retarget") {
     take_retarget_words(*app.get_subcommands().front(), words);
+  } else if (verb == "style") {
+    take_style_words(*app.get_subcommands().front(), words);
   } else if (verb == "recommend") {
     words.recommend.options.synth = words.synth.options;
     words.arguments.verb = words.recommend;

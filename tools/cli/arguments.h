@@ -11,6 +11,7 @@
 #include "tools/cli/curation_arguments.h"
 #include "tools/cli/map_arguments.h"
 #include "tools/cli/retarget_arguments.h"
+#include "tools/cli/style_arguments.h"
 
 #include <filesystem>
 #include <string>
@@ -74,8 +75,8 @@ struct Arguments {
                CurateArguments, JournalArguments, SynthArguments, StreamArguments,
                MapBuildArguments, MapShowArguments, MapImageArguments, MapPickArguments,
                MapQualityArguments, RecommendArguments, RetargetListArguments,
-               RetargetApplyArguments, BatchArguments, EvaluateArguments, TuneArguments,
-               ExplainArguments>
+               RetargetApplyArguments, StyleTrainArguments, StyleShowArguments, StyleApplyArguments,
+               BatchArguments, EvaluateArguments, TuneArguments, ExplainArguments>
       verb;
 };
 

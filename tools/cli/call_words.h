@@ -30,6 +30,14 @@ struct RetargetWords {
   RetargetApplyArguments apply;
 };
 
+// Of `phonomime style ...`.
+struct StyleWords {
+  StyleTrainArguments train;
+  StyleShowArguments show;
+  StyleApplyArguments apply;
+  bool coefficients = false;
+};
+
 // Of verbs that list motion nodes, or take them out of use.
 struct CurationWords {
   NodeFilter filter;
@@ -55,6 +63,7 @@ struct CallWords {
   ExplainArguments explain;
   MapWords map;
   RetargetWords retarget;
+  StyleWords style;
   RecommendArguments recommend; // but its synthesis
   CurationWords curation;
   std::string scale, cost, head, silence = "linear", shard = "1/1";
@@ -100,5 +109,9 @@ void take_map_words(const CLI::App& map, CallWords& words);
 void add_retarget(CLI::App& app, CallWords& words);
 // Which of the verbs of `retarget` it is.
 void take_retarget_words(const CLI::App& retarget, CallWords& words);
+
+void add_style(CLI::App& app, CallWords& words);
+// Which of the verbs of `style` it is.
+void take_style_words(const CLI::App& style, CallWords& words);
 
 } // namespace phonomime

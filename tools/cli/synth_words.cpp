@@ -48,10 +48,12 @@ void add_transcript_options(CLI::App* verb, CallWords& words) {
   SynthOptions& options = words.synth.options;
   verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
       ->type_name("NAME");
-  verb->add_option("--emotion", options.emotion, "One emotion throughout (default: neutral)")
+  verb->add_option(
+          "--emotion", options.emotion,
+          "One emotion throughout, or a mixture as happiness:0.6+anger:0.3 (default: neutral)")
       ->type_name("NAME[:INTENSITY]");
   verb->add_option("--emotions", options.emotions,
-                   "Emotion track: a text file of lines START END EMOTION")
+                   "Emotion track: a text file of lines START END EMOTION [INTENSITY]")
       ->type_name("TRACK");
   verb->add_option("--constraints", options.constraints,
                    "Constraint file: which nodes to use or to avoid, and where")

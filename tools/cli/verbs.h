@@ -46,6 +46,12 @@ void run_verb(const RetargetApplyArguments& arguments, const CommonArguments& co
               const Progress& progress);
 void run_verb(const RetargetListArguments& arguments, const CommonArguments& common,
               const Progress& progress);
+void run_verb(const StyleTrainArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const StyleShowArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const StyleApplyArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
 void run_verb(const ExplainArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 

@@ -73,10 +73,13 @@ TEST(EmotionTrack, EachFaultIsNamed) {
       {"0 1 a nan", "out of range"},
       {"0 1 a:", "out of range"},
       {"0 1 a:0.5 0.5", "an intensity is given twice"},
-      {"0 1 happiness:0.6+anger:0.3", "t.txt:1: \"happiness:0.6+anger:0.3\" mixes emotions "
-                                      "(expected one emotion). Mixtures need the "
-                                      "style model, which this version does not have."},
-      {"0 1 happiness+anger", "mixes emotions"},
+      {"0 1 happiness+anger",
+       "t.txt:1: the intensities of \"happiness+anger\" are too large together (expected 1.5 at "
+       "most, got 2). Give each emotion its share, as in happiness:0.6+anger:0.3."},
+      {"0 1 a:0.6+b:0.3+a:0.1", "names a twice"},
+      {"0 1 a:0.6+", "an emotion has no usable name"},
+      {"0 1 a:0.6+b:1.6", "out of range"},
+      {"0 1 a:0.6+b:0.3 0.5", "an intensity is given twice"},
       {"0 1 :0.5", "an emotion has no usable name"},
       {"0 1 a/b", "an emotion has no usable name"},
       {"0 1 a\n2 3 b\n0.5 0.75 c",
@@ -109,6 +112,22 @@ std::vector<std::string> emotions(std::string_view text, const std::vector<doubl
 }
 
 using Names = std::vector<std::string>;
+
+TEST(EmotionTrack, MixturesHaveAHeaviestPart) {
+  const EmotionTrack read = track("0 1 a:0.3+b:0.6+c:0.6\n1 2 d");
+  ASSERT_EQ(read.spans.size(), 2u);
+  EXPECT_EQ(mixture_of(read.spans[0]),
+            (EmotionMixture{.heaviest = {"b", 0.6}, .others = {{"a", 0.3}, {"c", 0.6}}}));
+  EXPECT_EQ(mixture_of(read.spans[1]), (EmotionMixture{.heaviest = {"d", 1.0}}));
+  for (const char* text : {"b:0.6+a:0.3+c:0.6", "d", "e:0", "f:1.25"}) {
+    EXPECT_EQ(format_emotions(parse_emotion_mixture(text, "t")), text);
+  }
+  EXPECT_THROW(parse_emotion_modifier("a:0.6+b:0.3", "t"), InputError);
+  // A phoneme's emotion, as the search asks for it, is the heaviest part.
+  const std::vector<double> borders_s = {0, 1, 2};
+  const std::vector<EmotionModifier> found = assign_emotions(read, phonemes(borders_s), kNeutral);
+  EXPECT_EQ(found[0], (EmotionModifier{"b", 0.6}));
+}
 
 TEST(AssignEmotions, TheLargestOverlapWins) {
   EXPECT_EQ(emotions("0 1 a\n1 2 b", {0, 0.5, 1.2, 2}), (Names{"a", "a", "b"}));

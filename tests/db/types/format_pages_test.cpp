@@ -114,8 +114,9 @@ TEST(FormatPages, EveryExampleIsWhatItsPageSays) {
       {"emotion_track emotion-track",
        [](const std::string& text) {
          const EmotionTrack track = parse_emotion_track(text, "emotion_track.md");
-         ASSERT_EQ(track.spans.size(), 3u);
+         ASSERT_EQ(track.spans.size(), 4u);
          EXPECT_EQ(track.spans[1].intensity, 0.8);
+         EXPECT_EQ(track.spans[3].others.size(), 1u);
        }},
       {"constraints constraints",
        [](const std::string& text) {

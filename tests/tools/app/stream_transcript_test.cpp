@@ -49,7 +49,7 @@ TEST(StreamTranscript, ReadsWhatAFileSays) {
 
 TEST(StreamTranscript, AnEmotionHoldsForItsRowOnly) {
   AskedEmotions asked{.track = {.source = "track", .spans = {{0.0, 0.3, "anger", 1.0, 1}}},
-                      .fallback = {.emotion = "sadness"}};
+                      .fallback = {.heaviest = {.emotion = "sadness"}}};
   StreamTranscript stream(two_sets(), asked, "standard input");
   std::vector<std::string> emotions;
   for (const StreamRow& row :

@@ -11,19 +11,21 @@ import phonomime_cli as cli
 import tiny_corpus
 
 VERBS = ("import", "info", "nodes", "synth", "batch", "evaluate", "tune", "map build", "map show", "map image", "map pick",
-         "map quality", "recommend", "retarget list", "retarget apply", "suspects", "prune", "restore", "undo", "journal", "explain")
+         "map quality", "recommend", "retarget list", "retarget apply", "style train", "style show",
+         "style apply", "suspects", "prune", "restore", "undo", "journal", "explain")
 
 
 class CallsTest(cli.CliTest):
     @classmethod
     def setUpClass(cls):
         folder = cli.scratch_folder(cls.addClassCleanup)
-        cls.corpus = tiny_corpus.Corpus(folder / "ann", sentences=30).write()
+        cls.corpus = tiny_corpus.Corpus(folder / "ann", sentences=15, emotions=("neutral", "happiness")).write()
         cls.database = folder / "ann.db"
         cli.run_well("import", cls.corpus, "--db", cls.database)
         node = cli.run_json("nodes", cls.database)[0]["key"]
         cli.run_well("prune", cls.database, node, "--reason", "to have a journal")
         cli.run_well("undo", cls.database)
+        cli.run_well("style", "train", cls.database)
         cls.transcript = cli.write_transcript(folder / "hello.lab", ["b", "aa", "m", "iy"])
         cls.manifest = folder / "lines.tsv"
         cls.manifest.write_text("transcript\nhello.lab\n")
@@ -47,6 +49,10 @@ class CallsTest(cli.CliTest):
             "map quality": ["map", "quality", self.database],
             "recommend": ["recommend", self.database, self.transcript, "--row", 2],
             "retarget list": ["retarget", "list", self.face],
+            "style train": ["style", "train", self.database],
+            "style show": ["style", "show", self.database],
+            "style apply": ["style", "apply", self.database, self.corpus / "motion" / "neutral_u000.c3d",
+                            "--to", "happiness", "-o", self.folder / "happy.csv"],
             "suspects": ["suspects", self.database],
             "journal": ["journal", self.database],
         }
@@ -63,15 +69,15 @@ class CallsTest(cli.CliTest):
                 for line in example.strip().splitlines():
                     words = shlex.split(line)
                     self.assertEqual(words[0], "phonomime")
-                    named = words[1:3] if words[1] in ("map", "retarget") else words[1:2]
+                    named = words[1:3] if words[1] in ("map", "retarget", "style") else words[1:2]
                     for option in (word for word in words if re.match("-[^0-9]", word)):
                         self.assertRegex(cli.run_well(*named, "--help"), rf"(?m)^  .*{re.escape(option)}\b")
-        for verb in ("import", "synth", "batch", "evaluate", "map build", "recommend"):
+        for verb in ("import", "synth", "batch", "evaluate", "map build", "recommend", "style train"):
             self.assertIn("--threads", cli.run_well(*verb.split(), "--help"))
 
     def test_help_is_for_people(self):
         """Lines that fit a terminal, no inner workings, and a meaning for each option."""
-        for verb in ((), ("map",), ("retarget",), *(verb.split() for verb in VERBS)):
+        for verb in ((), ("map",), ("retarget",), ("style",), *(verb.split() for verb in VERBS)):
             with self.subTest(" ".join(verb)):
                 text = cli.run_well(*verb, "--help")
                 self.assertRegex(text, rf"\nUsage: phonomime {' '.join(verb)}")
@@ -88,14 +94,15 @@ class CallsTest(cli.CliTest):
         self.assertRegex(cli.run_well("--version"), r"^phonomime \d+\.\d+\.\d+\n$")
 
     def test_quiet_prints_nothing_on_success(self):
-        for verb in ("import", "synth", "batch", "evaluate", "map build", "map image"):
+        for verb in ("import", "synth", "batch", "evaluate", "map build", "map image", "style train",
+                     "style apply"):
             with self.subTest(verb):
                 result = cli.run(*self.calls()[verb], "--quiet")
                 self.assertEqual((result.returncode, result.stdout, result.stderr), (cli.DONE, "", ""))
 
     def test_quiet_leaves_data_on_stdout(self):
         for verb in ("info", "nodes", "explain", "map show", "map pick", "map quality", "recommend", "retarget list",
-                     "suspects", "journal"):
+                     "suspects", "journal", "style show"):
             with self.subTest(verb):
                 result = cli.run(*self.calls()[verb], "--quiet")
                 self.assertEqual((result.returncode, result.stderr), (cli.DONE, ""))
