@@ -23,6 +23,7 @@ public:
 
   double sigma() const { return sigma_; }
   const Eigen::VectorXd& lambda() const { return lambda_; } // #outputs
+  const FrameMatrixD& weights() const { return weights_; }  // w of X4: #centres by #outputs
   double gcv() const { return gcv_; }                       // sum over outputs, in outputs squared
 
   // X4 for many points: #points by #inputs to #points by #outputs.

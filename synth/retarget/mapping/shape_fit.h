@@ -11,10 +11,10 @@
 namespace phonomime {
 
 struct ShapeFitOptions {
-  WeightOptions solve = {.ridge = 2e-4, .sparsity = 1e-4};
+  WeightOptions solve = {.ridge = 2e-4, .sparsity = 1e-4, .smoothness = 0.1};
   // What a mm of error in the lips' opening weighs, in markers: lips that close in the motion have
   // to close on the face, whatever the shapes make of the rest.
-  double opening = 20.0;
+  double opening = 50.0;
 
   // Throws UsageError that names the value.
   void validate() const;

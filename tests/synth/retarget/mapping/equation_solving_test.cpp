@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/retarget/mapping/equation_solving.h"
+#include "synth/retarget/mapping/region_errors.h"
 #include "tests/support/expect_error.h"
 #include "tests/synth/retarget/mapping/made_pairs.h"
 
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -130,6 +132,31 @@ TEST(EquationSolver, LeavesMissingMarkersOut) {
   const FrameMatrixD found = solver_of(face, {100, 100, 100}).weights(channels);
   EXPECT_LT((found - weights).topRows(2).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_EQ(found.row(2).norm(), 0.0);
+}
+
+TEST(RegionErrors, AreDistancesFromTheVerticesUnderTheMarkers) {
+  const ShapeFace face = made_face();
+  const FrameMatrixD weights = made_weights(4);
+  FrameMatrixD channels = performed(face, weights, {100, 100, 100});
+  const MarkerShapes shapes = shapes_at_markers(
+      face, kVertices, performed(face, FrameMatrixD::Zero(1, 3), {100, 100, 100}).transpose());
+  Layout layout;
+  for (std::size_t g = 0; g < kVertices.size(); ++g) {
+    layout.groups.push_back({.name = "m" + std::to_string(g), .regions = {Region::jaw}});
+  }
+  layout.groups[2].regions = {Region::lips};
+  layout.groups[3].regions = {Region::lips, Region::cheeks};
+  channels(1, 3 * 2) += 3.0; // of eight distances one is 5 mm
+  channels(1, 3 * 2 + 1) += 4.0;
+  channels.row(2).segment(3 * 5, 3).setConstant(std::numeric_limits<double>::quiet_NaN());
+  const auto errors = region_errors(shapes, layout, channels, weights);
+  ASSERT_EQ(errors.size(), 3U);
+  EXPECT_EQ(errors[0].region, Region::lips);
+  EXPECT_EQ(errors[0].markers, 2);
+  EXPECT_NEAR(errors[0].rms_mm, std::sqrt(25.0 / 8.0), 1e-9);
+  EXPECT_EQ(errors[1].markers, 10);
+  EXPECT_NEAR(errors[1].rms_mm, 0.0, 1e-9);
+  EXPECT_EQ(errors[2].region, Region::cheeks);
 }
 
 } // namespace phonomime::test
