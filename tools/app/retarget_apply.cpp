@@ -29,8 +29,7 @@ namespace phonomime {
 
 namespace {
 
-constexpr std::array<const char*, 5> kMethodNames = {"weights", "fit", "cross", "equations",
-                                                     "keyshapes"};
+constexpr std::array<const char*, 4> kMethodNames = {"weights", "fit", "cross", "equations"};
 constexpr std::size_t kHeadAngles = 3;
 constexpr std::size_t kEyeAngles = 6;
 
@@ -43,7 +42,7 @@ std::optional<RetargetMethod> parse_method(const std::string& name) {
   if (found == names.end()) {
     throw UsageError({.where = "--method",
                       .what = "is not a method",
-                      .expected = "weights, fit, cross, equations or keyshapes",
+                      .expected = "weights, fit, cross or equations",
                       .got = quoted(name),
                       .remedy = did_you_mean(name, names)});
   }
@@ -162,28 +161,9 @@ std::vector<HeadPose> about_its_mean(std::vector<HeadPose> head) {
 Similarity place_face(const RetargetApplyOptions& options, const MotionTable& table,
                       const ShapeFace& face, MarkerMap& markers) {
   markers = read_markers(options.face, table.layout, face.neutral.skin_vertex_count());
-  Points on_face(static_cast<Eigen::Index>(markers.vertices.size()), 3);
-  Points on_speaker(on_face.rows(), 3);
-  Eigen::Index count = 0;
-  for (std::size_t g = 0; g < markers.vertices.size(); ++g) {
-    if (markers.vertices[g] >= 0) {
-      on_face.row(count) = face.neutral.positions.row(markers.vertices[g]);
-      on_speaker.row(count++) =
-          table.reference_pose.segment<3>(3 * static_cast<Eigen::Index>(g)).transpose();
-    }
-  }
-  const Points placed = on_speaker.topRows(count);
-  const Similarity placement = fit_similarity(on_face.topRows(count), placed);
-  const double spread =
-      std::sqrt((placed.rowwise() - placed.colwise().mean()).rowwise().squaredNorm().mean());
-  if (!(placement.scale > 0.0) || placement.rms > 0.25 * spread) {
-    throw InputError({.where = face.neutral.source,
-                      .what = "the markers do not fit this face",
-                      .expected = fmt::format("at most {:.1f} mm off", 0.25 * spread),
-                      .got = fmt::format("{:.1f} mm", placement.rms),
-                      .remedy = "Look at the vertices that markers.tsv names, and at the mesh."});
-  }
-  return placement;
+  return place_on_markers(
+      face.neutral, markers.vertices,
+      Eigen::Map<const Points>(table.reference_pose.data(), table.reference_pose.size() / 3, 3));
 }
 
 ShapeMotion motion_of_markers(const RetargetApplyOptions& options, RetargetMethod method,
@@ -195,20 +175,20 @@ ShapeMotion motion_of_markers(const RetargetApplyOptions& options, RetargetMetho
                                            options.fps == 0.0 ? recorded_hz : options.fps);
   report.notes.insert(report.notes.end(), file.notes.begin(), file.notes.end());
   MarkerMap markers;
-  const Similarity placement = table.layout.kind == LayoutKind::markers
-                                   ? place_face(options, table, face, markers)
-                                   : free_placement(face);
+  const bool on_markers =
+      table.layout.kind == LayoutKind::markers && method != RetargetMethod::cross;
+  const Similarity placement =
+      on_markers ? place_face(options, table, face, markers) : free_placement(face);
   const RetargetSource source{.options = options,
                               .table = table,
                               .motion = file,
                               .face = face,
                               .markers = markers,
                               .placement = placement};
-  RetargetedWeights result =
-      method == RetargetMethod::fit ? retarget_by_fit(source, progress)
-      : method == RetargetMethod::keyshapes
-          ? retarget_by_keyshapes(source, progress)
-          : retarget_by_pairs(source, method == RetargetMethod::equations, progress);
+  RetargetedWeights result = method == RetargetMethod::fit ? retarget_by_fit(source, progress)
+                             : method == RetargetMethod::cross
+                                 ? retarget_by_cross_mapping(source, progress)
+                                 : retarget_by_equations(source, progress);
   report.notes.insert(report.notes.end(), result.notes.begin(), result.notes.end());
   report.figures_json = std::move(result.figures_json);
   ShapeMotion motion;
@@ -248,7 +228,10 @@ RetargetReport apply_to_face(const RetargetApplyOptions& options, const Progress
   if (report.method == RetargetMethod::weights && !is_weights) {
     throw UsageError({.where = "--method",
                       .what = "weights are asked for, but the motion is of markers",
-                      .expected = "fit, cross, equations or keyshapes"});
+                      .expected = "fit, cross or equations"});
+  }
+  if (report.method != RetargetMethod::cross && !options.pairs.empty()) {
+    throw UsageError({.where = "--pairs", .what = "is for --method cross"});
   }
   if (report.method != RetargetMethod::weights && options.database.empty()) {
     throw UsageError({.where = options.motion.string(),

@@ -11,11 +11,10 @@ namespace phonomime {
 
 // How motion becomes weights of a face's shapes.
 enum class RetargetMethod {
-  weights,   // it is weights: to the shapes of their names
-  fit,       // of markers: shapes known on the markers' vertices, by bounded least squares
-  cross,     // of markers: X4-X6 by pairs of frames and weights
-  equations, // of markers: X7 by the same pairs
-  keyshapes  // of anything: decomposed into keyshapes that a rig names
+  weights,  // it is weights: to the shapes of their names
+  fit,      // of markers: shapes known on the markers' vertices, by bounded least squares
+  cross,    // X4-X6 by pairs of frames and weights
+  equations // of markers: X7
 };
 
 struct RetargetApplyOptions {
@@ -25,8 +24,7 @@ struct RetargetApplyOptions {
   std::filesystem::path layout;   // of the motion, where its unit or axes are not the database's
   std::filesystem::path face;
   std::string method;          // empty: weights for weights, else fit
-  std::filesystem::path rig;   // of keyshapes
-  std::filesystem::path pairs; // of cross and equations
+  std::filesystem::path pairs; // of cross
   std::filesystem::path audio; // for .html
   std::vector<std::filesystem::path> outputs;
   double fps = 0.0;      // 0: the motion's own, 1 to 1000
@@ -52,7 +50,7 @@ struct RetargetReport {
 // Throws UsageError, InputError, IoError and Interrupted.
 RetargetReport apply_to_face(const RetargetApplyOptions& options, const Progress& progress);
 
-// "weights", "fit", "cross", "equations", "keyshapes".
+// "weights", "fit", "cross", "equations".
 const char* retarget_method_name(RetargetMethod method);
 
 } // namespace phonomime

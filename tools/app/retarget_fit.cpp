@@ -2,58 +2,58 @@
 #include "tools/app/retarget_source.h"
 
 #include "db/types/errors.h"
-#include "synth/retarget/placement.h"
-#include "synth/retarget/weight_solver.h"
+#include "synth/retarget/mapping/equation_solving.h"
+#include "synth/retarget/mapping/shape_fit.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace phonomime {
 
 namespace {
 
-constexpr double kRidge = 1e-3;
-constexpr double kSparsity = 2e-3;
-constexpr double kSmoothness = 0.3;
+MarkerShapes marker_shapes(const RetargetSource& source) {
+  if (source.markers.vertices.empty()) {
+    throw InputError(
+        {.where = source.options.database.string(),
+         .what = "shapes are fitted to markers, but the database is of weights",
+         .remedy = "Use --method cross, or give the weights themselves without --db."});
+  }
+  return shapes_at_markers(source.face, source.markers.vertices, source.table.reference_pose);
+}
+
+// With what they leave of the markers' offsets: root mean square over markers and frames, mm.
+RetargetedWeights with_error(FrameMatrixD weights, const MarkerShapes& shapes,
+                             const FrameMatrixD& channels) {
+  const FrameMatrixD left =
+      (channels.rowwise() - shapes.reference.transpose()) - weights * shapes.offsets.transpose();
+  double sum = 0.0;
+  Eigen::Index markers = 0;
+  for (std::size_t g = 0; g < shapes.on_face.size(); ++g) {
+    if (shapes.on_face[g] != 0) {
+      sum += left.middleCols<3>(3 * static_cast<Eigen::Index>(g)).array().square().sum();
+      ++markers;
+    }
+  }
+  const double rms = std::sqrt(sum / static_cast<double>(markers * channels.rows()));
+  return {.weights = std::move(weights),
+          .notes = {fmt::format("markers are left {:.2f} mm off (root mean square)", rms)},
+          .figures_json = nlohmann::json{{"marker_rms_mm", rms}}.dump()};
+}
 
 } // namespace
 
 RetargetedWeights retarget_by_fit(const RetargetSource& source, const Progress&) {
-  if (source.markers.vertices.empty()) {
-    throw InputError({.where = source.options.database.string(),
-                      .what = "shapes are fitted to markers, but the database is of weights",
-                      .remedy = "Give the weights themselves, without --db."});
-  }
-  std::vector<int> placed;
-  for (std::size_t g = 0; g < source.markers.vertices.size(); ++g) {
-    if (source.markers.vertices[g] >= 0) {
-      placed.push_back(static_cast<int>(g));
-    }
-  }
-  const auto rows = 3 * static_cast<Eigen::Index>(placed.size());
-  const auto shape_count = static_cast<Eigen::Index>(source.face.offsets.size());
-  const Eigen::Matrix3d turn = source.placement.scale * source.placement.rotation;
-  Eigen::MatrixXd shapes(rows, shape_count);
-  FrameMatrixD offsets(source.motion.frame_count(), rows);
-  for (std::size_t k = 0; k < placed.size(); ++k) {
-    const auto group = static_cast<std::size_t>(placed[k]);
-    const auto row = 3 * static_cast<Eigen::Index>(k);
-    const auto channel = 3 * static_cast<Eigen::Index>(group);
-    for (Eigen::Index s = 0; s < shape_count; ++s) {
-      const Points& shape = source.face.offsets[static_cast<std::size_t>(s)];
-      shapes.col(s).segment<3>(row) = turn * shape.row(source.markers.vertices[group]).transpose();
-    }
-    offsets.middleCols<3>(row) = source.motion.channels.middleCols<3>(channel).rowwise() -
-                                 source.table.reference_pose.segment<3>(channel).transpose();
-  }
-  const WeightSolver solver(shapes, {},
-                            {.ridge = kRidge, .sparsity = kSparsity, .smoothness = kSmoothness});
-  RetargetedWeights result{.weights = solver.solve(offsets), .notes = {}, .figures_json = {}};
-  const FrameMatrixD left = offsets - result.weights * shapes.transpose();
-  const double rms = std::sqrt(3.0 * left.array().square().mean());
-  result.notes.push_back(fmt::format("markers are left {:.2f} mm off (root mean square)", rms));
-  return result;
+  const ShapeFit fit(marker_shapes(source), source.table.layout);
+  return with_error(fit.weights(source.motion.channels), fit.shapes(), source.motion.channels);
+}
+
+RetargetedWeights retarget_by_equations(const RetargetSource& source, const Progress&) {
+  const EquationSolver solver(marker_shapes(source));
+  return with_error(solver.weights(source.motion.channels), solver.shapes(),
+                    source.motion.channels);
 }
 
 } // namespace phonomime

@@ -35,8 +35,7 @@ struct RetargetedWeights {
 
 // One for each method; each throws UsageError and InputError. They live in files of their own.
 RetargetedWeights retarget_by_fit(const RetargetSource& source, const Progress& progress);
-RetargetedWeights retarget_by_pairs(const RetargetSource& source, bool equations,
-                                    const Progress& progress);
-RetargetedWeights retarget_by_keyshapes(const RetargetSource& source, const Progress& progress);
+RetargetedWeights retarget_by_equations(const RetargetSource& source, const Progress& progress);
+RetargetedWeights retarget_by_cross_mapping(const RetargetSource& source, const Progress& progress);
 
 } // namespace phonomime

@@ -75,8 +75,9 @@ struct Arguments {
                CurateArguments, JournalArguments, SynthArguments, StreamArguments,
                MapBuildArguments, MapShowArguments, MapImageArguments, MapPickArguments,
                MapQualityArguments, RecommendArguments, RetargetListArguments,
-               RetargetApplyArguments, StyleTrainArguments, StyleShowArguments, StyleApplyArguments,
-               BatchArguments, EvaluateArguments, TuneArguments, ExplainArguments>
+               RetargetApplyArguments, RetargetReferencesArguments, StyleTrainArguments,
+               StyleShowArguments, StyleApplyArguments, BatchArguments, EvaluateArguments,
+               TuneArguments, ExplainArguments>
       verb;
 };
 

@@ -28,6 +28,7 @@ struct MapWords {
 struct RetargetWords {
   RetargetListArguments list;
   RetargetApplyArguments apply;
+  RetargetReferencesArguments references;
 };
 
 // Of `phonomime style ...`.

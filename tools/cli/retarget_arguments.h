@@ -3,6 +3,7 @@
 
 #include "tools/app/retarget_apply.h"
 #include "tools/app/retarget_list.h"
+#include "tools/app/retarget_references.h"
 
 namespace phonomime {
 
@@ -13,6 +14,10 @@ struct RetargetListArguments {
 
 struct RetargetApplyArguments {
   RetargetApplyOptions options;
+};
+
+struct RetargetReferencesArguments {
+  RetargetReferencesOptions options;
 };
 
 } // namespace phonomime

@@ -129,4 +129,31 @@ std::string retarget_text(const RetargetReport& report) {
   return text;
 }
 
+nlohmann::ordered_json references_json(const ReferencesReport& report) {
+  const ReferenceCoverage& coverage = report.coverage;
+  return {{"frames", report.frames},
+          {"extremes", report.extremes},
+          {"shapes", report.shapes},
+          {"fitted", report.fitted},
+          {"coverage",
+           {{"explained", coverage.explained},
+            {"median", coverage.median},
+            {"percentile_95", coverage.percentile_95},
+            {"farthest", coverage.farthest},
+            {"farthest_node", report.farthest},
+            {"classes", coverage.classes},
+            {"classes_met", coverage.classes_met}}}};
+}
+
+std::string references_text(const ReferencesReport& report) {
+  const ReferenceCoverage& coverage = report.coverage;
+  return fmt::format("{} frames, {} of them extremes; {} shapes, {}\n"
+                     "{} of {} pairs of viseme and emotion have a frame\n"
+                     "{:.0f} % of the motion's variance is covered; the farthest frame is in {}\n",
+                     report.frames, report.extremes, report.shapes,
+                     report.fitted ? "weights as fitted" : "weights to be filled in",
+                     coverage.classes_met, coverage.classes, 100.0 * coverage.explained,
+                     report.farthest);
+}
+
 } // namespace phonomime

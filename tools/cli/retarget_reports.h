@@ -3,6 +3,7 @@
 
 #include "tools/app/retarget_apply.h"
 #include "tools/app/retarget_list.h"
+#include "tools/app/retarget_references.h"
 
 #include <string>
 
@@ -16,5 +17,8 @@ std::string face_offer_text(const FaceOffer& offer);
 
 nlohmann::ordered_json retarget_json(const RetargetReport& report);
 std::string retarget_text(const RetargetReport& report);
+
+nlohmann::ordered_json references_json(const ReferencesReport& report);
+std::string references_text(const ReferencesReport& report);
 
 } // namespace phonomime

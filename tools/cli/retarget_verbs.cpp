@@ -22,4 +22,12 @@ void run_verb(const RetargetApplyArguments& arguments, const CommonArguments& co
   }
 }
 
+void run_verb(const RetargetReferencesArguments& arguments, const CommonArguments& common,
+              const Progress&) {
+  const ReferencesReport report = propose_pairs(arguments.options);
+  if (common.json || !common.quiet) {
+    print(common.json ? references_json(report).dump(1) + "\n" : references_text(report));
+  }
+}
+
 } // namespace phonomime

@@ -48,12 +48,10 @@ void add_retarget_apply(CLI::App* retarget, RetargetWords& words) {
                    "The layout.json of the motion, where its unit or axes are not the database's")
       ->type_name("FILE");
   verb->add_option("--method", options.method,
-                   "How: weights (by their names), fit, cross, equations or keyshapes (default: "
+                   "How: weights (by their names), fit, cross or equations (default: "
                    "weights for weights, else fit)")
       ->type_name("METHOD");
-  verb->add_option("--rig", options.rig, "What each keyshape does to the face, for keyshapes")
-      ->type_name("RIG");
-  verb->add_option("--pairs", options.pairs, "Frames with their weights, for cross and equations")
+  verb->add_option("--pairs", options.pairs, "Frames with their weights, for cross")
       ->type_name("TABLE");
   verb->add_option("--filter", options.filter_s,
                    "Smooth the weights in time by a bell this wide in seconds, 0 (none) to 1")
@@ -71,6 +69,28 @@ void add_retarget_apply(CLI::App* retarget, RetargetWords& words) {
       ->type_name("N");
 }
 
+void add_retarget_references(CLI::App* retarget, RetargetWords& words) {
+  RetargetReferencesOptions& options = words.references.options;
+  CLI::App* verb = retarget->add_subcommand("references", "Frames to give weights, for cross");
+  verb->footer("Example:\n  phonomime retarget references ann.db --face head.glb -o pairs.tsv\n\n"
+               "One frame for each viseme and emotion, then those farthest from all before.\n"
+               "Weights stand there as `fit` finds them, to be changed by hand.");
+  verb->add_option("db", options.database, "The motion database")->required()->type_name("DB");
+  add_face(verb, options.face, true);
+  verb->add_option("-o,--output", options.output, "The pair table (.tsv)")
+      ->required()
+      ->type_name("FILE");
+  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
+      ->type_name("NAME");
+  verb->add_option("--extremes", options.references.extremes, "Extreme frames for each emotion")
+      ->type_name("N")
+      ->capture_default_str();
+  verb->add_option("--dimensions", options.references.dimensions,
+                   "Dimensions of the PCA in which frames are near or far")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
 } // namespace
 
 void add_retarget(CLI::App& app, CallWords& words) {
@@ -81,11 +101,15 @@ void add_retarget(CLI::App& app, CallWords& words) {
                    "docs/retargeting.md.");
   add_retarget_list(retarget, words.retarget);
   add_retarget_apply(retarget, words.retarget);
+  add_retarget_references(retarget, words.retarget);
 }
 
 void take_retarget_words(const CLI::App& retarget, CallWords& words) {
-  if (retarget.get_subcommands().front()->get_name() == "list") {
+  const std::string verb = retarget.get_subcommands().front()->get_name();
+  if (verb == "list") {
     words.arguments.verb = words.retarget.list;
+  } else if (verb == "references") {
+    words.arguments.verb = words.retarget.references;
   } else {
     words.arguments.verb = words.retarget.apply;
   }

@@ -44,6 +44,8 @@ void run_verb(const RecommendArguments& arguments, const CommonArguments& common
               const Progress& progress);
 void run_verb(const RetargetApplyArguments& arguments, const CommonArguments& common,
               const Progress& progress);
+void run_verb(const RetargetReferencesArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
 void run_verb(const RetargetListArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 void run_verb(const StyleTrainArguments& arguments, const CommonArguments& common,

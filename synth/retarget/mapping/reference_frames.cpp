@@ -25,7 +25,7 @@ Class class_of(const MotionNode& node) {
   return {node.emotion, node.viseme};
 }
 
-Eigen::Index row_of(const MotionTable& table, const ReferenceFrame& reference) {
+Eigen::Index row_of(const MotionTable& table, const ProposedFrame& reference) {
   return table.nodes[static_cast<std::size_t>(reference.node)].first_frame + reference.frame;
 }
 
@@ -104,15 +104,15 @@ std::vector<Eigen::Index> farthest_points(const FrameMatrixD& points,
   return found;
 }
 
-std::vector<ReferenceFrame> propose_references(const MotionTable& table,
-                                               const ReferenceOptions& options) {
+std::vector<ProposedFrame> propose_references(const MotionTable& table,
+                                              const ReferenceOptions& options) {
   options.validate();
   const FrameMatrixD points = leading(table, options.dimensions);
   std::map<Class, std::vector<NodeIndex>> classes;
   for (NodeIndex n = 0; n < table.node_count(); ++n) {
     classes[class_of(table.nodes[static_cast<std::size_t>(n)])].push_back(n);
   }
-  std::vector<ReferenceFrame> references;
+  std::vector<ProposedFrame> references;
   std::vector<Eigen::Index> chosen;
   for (const auto& [unused, nodes] : classes) {
     const NodeIndex node = typical(table, points, nodes);
@@ -134,9 +134,9 @@ std::vector<ReferenceFrame> propose_references(const MotionTable& table,
   return references;
 }
 
-Coverage coverage_of(const MotionTable& table, std::span<const ReferenceFrame> references,
-                     int dimensions) {
-  Coverage coverage;
+ReferenceCoverage coverage_of(const MotionTable& table, std::span<const ProposedFrame> references,
+                              int dimensions) {
+  ReferenceCoverage coverage;
   std::map<Class, bool> classes;
   for (const MotionNode& node : table.nodes) {
     classes[class_of(node)] = false;
@@ -144,7 +144,7 @@ Coverage coverage_of(const MotionTable& table, std::span<const ReferenceFrame> r
   const FrameMatrixD points = leading(table, dimensions);
   const NodeRows all = rows_of(table, -1);
   std::vector<double> distance_sq(all.rows.size(), kFar);
-  for (const ReferenceFrame& reference : references) {
+  for (const ProposedFrame& reference : references) {
     lower(points, all.rows, row_of(table, reference), distance_sq);
     classes[class_of(table.nodes[static_cast<std::size_t>(reference.node)])] = true;
   }

@@ -19,7 +19,7 @@ struct ReferenceOptions {
 };
 
 // A frame proposed for a pair, and what it stands for.
-struct ReferenceFrame {
+struct ProposedFrame {
   NodeIndex node = kNoNode;
   std::int32_t frame = 0; // of the node
   bool extreme = false;   // else: the middle frame of a node of its viseme and emotion
@@ -28,7 +28,7 @@ struct ReferenceFrame {
 // How well some frames stand for all frames of the nodes (X's future work: "quantitatively measure
 // the coverage of reference mocap frames"). Distances are to the nearest of them, in the PCA's
 // leading dimensions, root of the sum of squares over all channels (mm, or weights).
-struct Coverage {
+struct ReferenceCoverage {
   // Share of the frames' variance that is left out by giving each the place of its nearest
   // reference, taken from 1: 0 = no better than one at the mean, 1 = every frame is one.
   double explained = 0.0;
@@ -41,11 +41,11 @@ struct Coverage {
 // One frame for each viseme and emotion that the table has nodes of, the middle frame nearest to
 // the median of the middle frames; then for each emotion in turn the frames that are farthest from
 // all chosen before. In order of choice; the same table gives the same frames.
-std::vector<ReferenceFrame> propose_references(const MotionTable& table,
-                                               const ReferenceOptions& options = {});
+std::vector<ProposedFrame> propose_references(const MotionTable& table,
+                                              const ReferenceOptions& options = {});
 
-Coverage coverage_of(const MotionTable& table, std::span<const ReferenceFrame> references,
-                     int dimensions);
+ReferenceCoverage coverage_of(const MotionTable& table, std::span<const ProposedFrame> references,
+                              int dimensions);
 
 // Rows of `points` (#points by #dimensions) one after the other, each the farthest from all chosen
 // before (`chosen`, rows too), among `among`; fewer where no other place is left.

@@ -82,7 +82,7 @@ TEST_F(OpenTest, AFutureVersionIsRefusedByBothNumbers) {
   import_here();
   test::raw_query(path, "PRAGMA user_version = 12");
   for (const OpenMode mode : {OpenMode::read_only, OpenMode::read_write}) {
-    EXPECT_TRUE(says(open_error(mode), "(expected schema version 1 to 3, got version 12)"));
+    EXPECT_TRUE(says(open_error(mode), "(expected schema version 1 to 4, got version 12)"));
   }
 }
 

@@ -116,9 +116,14 @@ using Names = std::vector<std::string>;
 TEST(EmotionTrack, MixturesHaveAHeaviestPart) {
   const EmotionTrack read = track("0 1 a:0.3+b:0.6+c:0.6\n1 2 d");
   ASSERT_EQ(read.spans.size(), 2u);
-  EXPECT_EQ(mixture_of(read.spans[0]),
-            (EmotionMixture{.heaviest = {"b", 0.6}, .others = {{"a", 0.3}, {"c", 0.6}}}));
-  EXPECT_EQ(mixture_of(read.spans[1]), (EmotionMixture{.heaviest = {"d", 1.0}}));
+  const EmotionMixture mixed = mixture_of(read.spans[0]);
+  EXPECT_EQ(mixed.heaviest, (EmotionModifier{"b", 0.6}));
+  ASSERT_EQ(mixed.others.size(), 2u);
+  EXPECT_EQ(mixed.others[0], (EmotionModifier{"a", 0.3}));
+  EXPECT_EQ(mixed.others[1], (EmotionModifier{"c", 0.6}));
+  const EmotionMixture alone = mixture_of(read.spans[1]);
+  EXPECT_EQ(alone.heaviest, (EmotionModifier{"d", 1.0}));
+  EXPECT_TRUE(alone.others.empty());
   for (const char* text : {"b:0.6+a:0.3+c:0.6", "d", "e:0", "f:1.25"}) {
     EXPECT_EQ(format_emotions(parse_emotion_mixture(text, "t")), text);
   }

@@ -9,6 +9,8 @@
 #include "db/types/node_constraint.h"
 #include "db/types/phoneme_set.h"
 #include "db/types/text.h"
+#include "synth/retarget/keyshapes/rig.h"
+#include "synth/retarget/mapping/pair_table.h"
 #include "tests/support/shared_data.h"
 #include "tools/app/manifest.h"
 #include "tools/evaluate/compare.h"
@@ -135,6 +137,20 @@ TEST(FormatPages, EveryExampleIsWhatItsPageSays) {
          EXPECT_EQ(rows[1].options.outputs.at(0), "sc010_0020.csv");
          EXPECT_EQ(rows[1].options.audio, "wav/sc010_0020.wav");
          EXPECT_EQ(rows[2].id, "sc010_0030");
+       }},
+      {"rig rig",
+       [](const std::string& text) { EXPECT_FALSE(parse_rig(text, "rig.md").sets.empty()); }},
+      {"pairs tsv",
+       [](const std::string& text) {
+         const std::vector<std::string> shapes = {"mouthSmile_L", "jawOpen", "browInnerUp"};
+         const PairTable read = parse_pair_table(text, "pairs.md", shapes);
+         EXPECT_EQ(read.shapes, (std::vector<std::string>{"jawOpen", "mouthSmile_L"}));
+         ASSERT_EQ(read.rows.size(), 3u);
+         EXPECT_EQ(read.rows[1].frame.node, "ann/happiness/s004#2");
+         EXPECT_EQ(read.rows[1].frame.time_s, 0.05);
+         EXPECT_EQ(read.weights(1, 0), 0.55);
+         EXPECT_EQ(read.weights(2, 0), 0.0);
+         EXPECT_EQ(read.weights(2, 1), 0.8);
        }},
       {"weights json",
        [](const std::string& text) {

@@ -11,8 +11,8 @@ import phonomime_cli as cli
 import tiny_corpus
 
 VERBS = ("import", "info", "nodes", "synth", "batch", "evaluate", "tune", "map build", "map show", "map image", "map pick",
-         "map quality", "recommend", "retarget list", "retarget apply", "style train", "style show",
-         "style apply", "suspects", "prune", "restore", "undo", "journal", "explain")
+         "map quality", "recommend", "retarget list", "retarget apply", "retarget references",
+         "style train", "style show", "style apply", "suspects", "prune", "restore", "undo", "journal", "explain")
 
 
 class CallsTest(cli.CliTest):

@@ -166,7 +166,7 @@ class StreamTest(cli.DatabaseTest):
             "1.2 1.3 axx\n": ('"axx"', "Did you mean"),
             "1.2 1.2 aa\n": ("no duration",),
             "1.2 1.3 aa hapiness\n": ('"hapiness"', '"happiness"'),
-            "1.2 1.3 aa happiness:0.5\n": ("style model",),
+            "1.2 1.3 aa happiness:0.5\n": ("a stream does not",),
             "1200 13000 aa\n": ("too long",),
             "x" * 70000: ("too long",),
         }

@@ -27,9 +27,9 @@ MotionTable spoken_table() {
 }
 
 std::vector<Eigen::Index> rows_of(const MotionTable& table,
-                                  const std::vector<ReferenceFrame>& references) {
+                                  const std::vector<ProposedFrame>& references) {
   std::vector<Eigen::Index> rows;
-  for (const ReferenceFrame& reference : references) {
+  for (const ProposedFrame& reference : references) {
     rows.push_back(table.nodes[static_cast<std::size_t>(reference.node)].first_frame +
                    reference.frame);
   }
@@ -77,7 +77,7 @@ TEST(ReferenceFrames, CoverageIsWhatBruteForceFinds) {
   const MotionTable table = spoken_table();
   auto references = propose_references(table, {.dimensions = 2, .extremes = 1});
   references.erase(references.begin() + 2); // a class without a frame
-  const Coverage coverage = coverage_of(table, references, 2);
+  const ReferenceCoverage coverage = coverage_of(table, references, 2);
   EXPECT_EQ(coverage.classes, 6);
   EXPECT_EQ(coverage.classes_met, 5);
   double left = 0.0;
