@@ -4,6 +4,7 @@
 #include "db/types/parallel_for.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <vector>
 
@@ -15,80 +16,68 @@ constexpr std::ptrdiff_t kSourcesAtOnce = 16;    // a thread's share
 constexpr std::ptrdiff_t kSourcesAReport = 1024; // between looks at Progress
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Dijkstra's algorithm with a heap of four children a node, which knows where each point stands.
+// Shortest paths from one point by buckets of distances (Dial 1969; Meyer and Sanders 2003): points
+// are taken bucket by bucket, those of one bucket in any order, and again where they come nearer. A
+// distance is the least over all paths of the sum of their edges from the source on, to the bit, as
+// it is by Dijkstra's algorithm, whose heap takes longer.
 class ShortestPaths {
 public:
   explicit ShortestPaths(const NeighbourGraph& graph)
-      : graph_(graph), place_(static_cast<std::size_t>(graph.point_count())),
-        heap_(static_cast<std::size_t>(graph.point_count())) {}
+      : graph_(graph), taken_at_(static_cast<std::size_t>(graph.point_count())) {
+    double sum = 0.0, longest = 0.0;
+    std::size_t count = 0;
+    for (std::int32_t point = 0; point < graph.point_count(); ++point) {
+      for (const NeighbourGraph::Edge& edge : graph.edges_of(point)) {
+        sum += edge.length;
+        longest = std::max(longest, edge.length);
+        ++count;
+      }
+    }
+    // Half a mean edge wide, but not so narrow that the longest edge spans too many.
+    const double width = std::max(0.5 * sum / static_cast<double>(std::max<std::size_t>(count, 1)),
+                                  longest / kMostBuckets);
+    per_width_ = width > 0.0 ? 1.0 / width : 0.0;
+    buckets_.resize(std::bit_ceil(static_cast<std::size_t>(longest * per_width_) + 2));
+  }
 
   // `distance`: #points.
   void run(std::int32_t source, double* distance) {
     std::fill_n(distance, graph_.point_count(), kInfinity);
+    std::fill(taken_at_.begin(), taken_at_.end(), kInfinity);
     distance[source] = 0.0;
-    size_ = 0;
-    put(size_++, {0.0, source});
-    while (size_ > 0) {
-      const Entry nearest = heap_.front();
-      if (--size_ > 0) {
-        sink(heap_[size_]);
-      }
-      for (const NeighbourGraph::Edge& edge : graph_.edges_of(nearest.point)) {
-        const double length = nearest.distance + edge.length;
-        double& known = distance[edge.target];
-        if (length < known) {
-          const std::size_t place =
-              known == kInfinity ? size_++ : place_[static_cast<std::size_t>(edge.target)];
-          known = length;
-          rise(place, {length, edge.target});
+    buckets_.front().push_back(source);
+    const std::size_t ring = buckets_.size() - 1;
+    std::size_t waiting = 1;
+    for (std::size_t current = 0; waiting > 0; ++current) {
+      std::vector<std::int32_t>& bucket = buckets_[current & ring];
+      while (!bucket.empty()) {
+        const std::int32_t point = bucket.back();
+        bucket.pop_back();
+        --waiting;
+        const double from = distance[point];
+        if (taken_at_[static_cast<std::size_t>(point)] == from) {
+          continue; // it stood in several buckets
+        }
+        taken_at_[static_cast<std::size_t>(point)] = from;
+        for (const NeighbourGraph::Edge& edge : graph_.edges_of(point)) {
+          const double length = from + edge.length;
+          if (length < distance[edge.target]) {
+            distance[edge.target] = length;
+            buckets_[static_cast<std::size_t>(length * per_width_) & ring].push_back(edge.target);
+            ++waiting;
+          }
         }
       }
     }
   }
 
 private:
-  struct Entry {
-    double distance;
-    std::int32_t point;
-  };
-
-  void put(std::size_t place, const Entry& entry) {
-    heap_[place] = entry;
-    place_[static_cast<std::size_t>(entry.point)] = static_cast<std::uint32_t>(place);
-  }
-  void rise(std::size_t place, const Entry& entry) {
-    while (place > 0) {
-      const std::size_t parent = (place - 1) / 4;
-      if (heap_[parent].distance <= entry.distance) {
-        break;
-      }
-      put(place, heap_[parent]);
-      place = parent;
-    }
-    put(place, entry);
-  }
-  // The root is gone, and `entry` has lost its place at the end.
-  void sink(const Entry entry) {
-    std::size_t place = 0;
-    for (std::size_t child = 1; child < size_; child = 4 * place + 1) {
-      const std::size_t end = std::min(child + 4, size_);
-      std::size_t least = child;
-      for (std::size_t other = child + 1; other < end; ++other) {
-        least = heap_[other].distance < heap_[least].distance ? other : least;
-      }
-      if (heap_[least].distance >= entry.distance) {
-        break;
-      }
-      put(place, heap_[least]);
-      place = least;
-    }
-    put(place, entry);
-  }
+  static constexpr double kMostBuckets = 4096.0;
 
   const NeighbourGraph& graph_;
-  std::vector<std::uint32_t> place_; // #points, into heap_
-  std::vector<Entry> heap_;
-  std::size_t size_ = 0;
+  std::vector<double> taken_at_; // #points: the distance at which a point was last taken
+  double per_width_ = 0.0;       // buckets a unit of distance
+  std::vector<std::vector<std::int32_t>> buckets_; // a ring, a power of two: no edge spans it
 };
 
 } // namespace
