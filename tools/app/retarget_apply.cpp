@@ -179,12 +179,8 @@ ShapeMotion motion_of_markers(const RetargetApplyOptions& options, RetargetMetho
       table.layout.kind == LayoutKind::markers && method != RetargetMethod::cross;
   const Similarity placement =
       on_markers ? place_face(options, table, face, markers) : free_placement(face);
-  const RetargetSource source{.options = options,
-                              .table = table,
-                              .motion = file,
-                              .face = face,
-                              .markers = markers,
-                              .placement = placement};
+  const RetargetSource source{
+      .options = options, .table = table, .motion = file, .face = face, .markers = markers};
   RetargetedWeights result = method == RetargetMethod::fit ? retarget_by_fit(source, progress)
                              : method == RetargetMethod::cross
                                  ? retarget_by_cross_mapping(source, progress)

@@ -4,7 +4,6 @@
 #include "db/types/motion_table.h"
 #include "db/types/progress.h"
 #include "synth/retarget/marker_map.h"
-#include "synth/retarget/placement.h"
 #include "synth/retarget/shape_face.h"
 #include "tools/app/motion_file.h"
 #include "tools/app/retarget_apply.h"
@@ -23,7 +22,6 @@ struct RetargetSource {
   // Which vertex of the skin each marker of the layout sits on; empty where the layout is of
   // weights or the method asks for none.
   const MarkerMap& markers;
-  const Similarity& placement; // of the face on the speaker's reference pose (mm)
 };
 
 // What it gives.
