@@ -165,10 +165,7 @@ EmotionFindings EmotionStudy::findings() const {
   if (moments.count > 0) {
     findings.closure_change = moments.mean_recorded;
   }
-  if (moments.count > 1) {
-    const auto n = static_cast<double>(moments.count);
-    findings.closure_change_error = std::sqrt(moments.recorded_sq / (n - 1.0) / n);
-  }
+  findings.closure_change_error = moments.recorded_mean_error();
   findings.closure_p = signed_rank_test(differences).p_value;
   return findings;
 }

@@ -64,10 +64,7 @@ summarise_some(const std::vector<const SentenceMeasures*>& some) {
     if (moments.count > 0) {
       summary.mean = moments.mean_recorded;
     }
-    if (moments.count > 1) {
-      const auto n = static_cast<double>(moments.count);
-      summary.standard_error = std::sqrt(moments.recorded_sq / (n - 1.0) / n);
-    }
+    summary.standard_error = moments.recorded_mean_error();
   }
   return summaries;
 }

@@ -80,6 +80,14 @@ std::optional<double> PairMoments::deviation_ratio() const {
   return std::sqrt(synthesised_sq / recorded_sq);
 }
 
+std::optional<double> PairMoments::recorded_mean_error() const {
+  if (count < 2) {
+    return std::nullopt;
+  }
+  const auto n = static_cast<double>(count);
+  return std::sqrt(recorded_sq / (n - 1.0) / n);
+}
+
 void MeasureSums::add(const MeasureSums& other) {
   if (group_error_sq.empty()) {
     group_error_sq.assign(other.group_error_sq.size(), 0.0);

@@ -24,6 +24,8 @@ struct PairMoments {
   std::optional<double> correlation() const;
   // Standard deviation of the synthesis over that of the recording; nothing where that is 0.
   std::optional<double> deviation_ratio() const;
+  // Standard error of the recorded mean; from two on.
+  std::optional<double> recorded_mean_error() const;
 };
 
 // Values whose mean is wanted.

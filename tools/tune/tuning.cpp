@@ -44,10 +44,7 @@ Gain gain_of(const Scores& scores, Measure objective) {
   if (moments.count > 0) {
     gain.gain = moments.mean_recorded;
   }
-  if (moments.count > 1) {
-    const auto n = static_cast<double>(moments.count);
-    gain.standard_error = std::sqrt(moments.recorded_sq / (n - 1.0) / n);
-  }
+  gain.standard_error = moments.recorded_mean_error();
   gain.p_value = signed_rank_test(differences).p_value;
   return gain;
 }
