@@ -2,82 +2,99 @@
 #include "isomap/geodesics.h"
 
 #include "db/types/parallel_for.h"
+#include "isomap/paths_in_lanes.h"
 
 #include <algorithm>
-#include <bit>
-#include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace phonomime {
 
 namespace {
 
-constexpr std::ptrdiff_t kSourcesAtOnce = 16;    // a thread's share
-constexpr std::ptrdiff_t kSourcesAReport = 1024; // between looks at Progress
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kGroupsAtOnce = 8;    // a thread's share
+constexpr std::size_t kGroupsAReport = 128; // between looks at Progress
+constexpr std::size_t kReach = 128;         // points about a source; others among them are near it
+constexpr std::size_t kFewest = 4;          // sources that are worth going side by side
 
-// Shortest paths from one point by buckets of distances (Dial 1969; Meyer and Sanders 2003): points
-// are taken bucket by bucket, those of one bucket in any order, and again where they come nearer. A
-// distance is the least over all paths of the sum of their edges from the source on, to the bit, as
-// it is by Dijkstra's algorithm, whose heap takes longer.
-class ShortestPaths {
-public:
-  explicit ShortestPaths(const NeighbourGraph& graph)
-      : graph_(graph), taken_at_(static_cast<std::size_t>(graph.point_count())) {
-    double sum = 0.0, longest = 0.0;
-    std::size_t count = 0;
-    for (std::int32_t point = 0; point < graph.point_count(); ++point) {
+// Sources that are near each other: where they stand in `sources`.
+using Group = std::vector<std::int32_t>;
+
+// The sources in groups of at most PathsInLanes::kLanes, by numbers of edges; those that have too
+// few others near them stay alone.
+std::vector<Group> group_sources(const NeighbourGraph& graph,
+                                 std::span<const std::int32_t> sources) {
+  const auto point_count = static_cast<std::size_t>(graph.point_count());
+  std::vector<std::int32_t> source_at(point_count, -1), seen_by(point_count, -1);
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    std::int32_t& place = source_at[static_cast<std::size_t>(sources[i])];
+    if (place >= 0) {
+      groups.push_back({place}); // the same point once more
+    }
+    place = static_cast<std::int32_t>(i);
+  }
+  std::vector<std::int32_t> near;
+  for (const std::int32_t source : sources) {
+    if (source_at[static_cast<std::size_t>(source)] < 0) {
+      continue;
+    }
+    Group group;
+    near.assign(1, source);
+    seen_by[static_cast<std::size_t>(source)] = source;
+    for (std::size_t n = 0;
+         n < std::min(near.size(), kReach) && group.size() < PathsInLanes::kLanes; ++n) {
+      const std::int32_t point = near[n];
+      if (source_at[static_cast<std::size_t>(point)] >= 0) {
+        group.push_back(source_at[static_cast<std::size_t>(point)]);
+      }
       for (const NeighbourGraph::Edge& edge : graph.edges_of(point)) {
-        sum += edge.length;
-        longest = std::max(longest, edge.length);
-        ++count;
+        if (seen_by[static_cast<std::size_t>(edge.target)] != source) {
+          seen_by[static_cast<std::size_t>(edge.target)] = source;
+          near.push_back(edge.target);
+        }
       }
     }
-    // Half a mean edge wide, but not so narrow that the longest edge spans too many.
-    const double width = std::max(0.5 * sum / static_cast<double>(std::max<std::size_t>(count, 1)),
-                                  longest / kMostBuckets);
-    per_width_ = width > 0.0 ? 1.0 / width : 0.0;
-    buckets_.resize(std::bit_ceil(static_cast<std::size_t>(longest * per_width_) + 2));
+    if (group.size() < kFewest) {
+      group.resize(1);
+    }
+    for (const std::int32_t member : group) {
+      source_at[static_cast<std::size_t>(sources[static_cast<std::size_t>(member)])] = -1;
+    }
+    groups.push_back(std::move(group));
   }
+  return groups;
+}
 
-  // `distance`: #points.
-  void run(std::int32_t source, double* distance) {
-    std::fill_n(distance, graph_.point_count(), kInfinity);
-    std::fill(taken_at_.begin(), taken_at_.end(), kInfinity);
-    distance[source] = 0.0;
-    buckets_.front().push_back(source);
-    const std::size_t ring = buckets_.size() - 1;
-    std::size_t waiting = 1;
-    for (std::size_t current = 0; waiting > 0; ++current) {
-      std::vector<std::int32_t>& bucket = buckets_[current & ring];
-      while (!bucket.empty()) {
-        const std::int32_t point = bucket.back();
-        bucket.pop_back();
-        --waiting;
-        const double from = distance[point];
-        if (taken_at_[static_cast<std::size_t>(point)] == from) {
-          continue; // it stood in several buckets
-        }
-        taken_at_[static_cast<std::size_t>(point)] = from;
-        for (const NeighbourGraph::Edge& edge : graph_.edges_of(point)) {
-          const double length = from + edge.length;
-          if (length < distance[edge.target]) {
-            distance[edge.target] = length;
-            buckets_[static_cast<std::size_t>(length * per_width_) & ring].push_back(edge.target);
-            ++waiting;
-          }
-        }
-      }
+// Paths from one group after the other.
+class GroupedPaths {
+public:
+  explicit GroupedPaths(const NeighbourGraph& graph) : graph_(graph) {}
+
+  void run(const Group& group, std::span<const std::int32_t> sources, DistanceMatrix& distances) {
+    std::vector<std::int32_t> members;
+    std::vector<double*> rows;
+    for (const std::int32_t member : group) {
+      members.push_back(sources[static_cast<std::size_t>(member)]);
+      rows.push_back(distances.row(member).data());
+    }
+    if (group.size() > 1) {
+      made(in_lanes_).run(members, rows);
+    } else {
+      made(alone_).run(members, rows.front());
     }
   }
 
 private:
-  static constexpr double kMostBuckets = 4096.0;
+  template <typename Paths>
+  Paths& made(std::optional<Paths>& paths) {
+    return paths ? *paths : paths.emplace(graph_);
+  }
 
   const NeighbourGraph& graph_;
-  std::vector<double> taken_at_; // #points: the distance at which a point was last taken
-  double per_width_ = 0.0;       // buckets a unit of distance
-  std::vector<std::vector<std::int32_t>> buckets_; // a ring, a power of two: no edge spans it
+  std::optional<ShortestPaths> alone_;
+  std::optional<PathsInLanes> in_lanes_;
 };
 
 } // namespace
@@ -87,17 +104,23 @@ DistanceMatrix geodesic_distances(const NeighbourGraph& graph,
                                   const Progress& progress) {
   const auto source_count = static_cast<std::ptrdiff_t>(sources.size());
   DistanceMatrix distances(source_count, graph.point_count());
-  for (std::ptrdiff_t begin = 0; begin < source_count; begin += kSourcesAReport) {
-    progress.update("geodesics", begin, source_count);
-    const std::ptrdiff_t end = std::min(begin + kSourcesAReport, source_count);
-    const std::ptrdiff_t shares = (end - begin + kSourcesAtOnce - 1) / kSourcesAtOnce;
-    parallel_for(shares, threads, [&](std::ptrdiff_t share) {
-      ShortestPaths paths(graph);
-      const std::ptrdiff_t first = begin + share * kSourcesAtOnce;
-      for (std::ptrdiff_t i = first; i < std::min(first + kSourcesAtOnce, end); ++i) {
-        paths.run(sources[static_cast<std::size_t>(i)], distances.row(i).data());
+  const std::vector<Group> groups = group_sources(graph, sources);
+  std::ptrdiff_t done = 0;
+  for (std::size_t begin = 0; begin < groups.size(); begin += kGroupsAReport) {
+    progress.update("geodesics", done, source_count);
+    const auto some =
+        std::span(groups).subspan(begin, std::min(kGroupsAReport, groups.size() - begin));
+    const std::size_t shares = (some.size() + kGroupsAtOnce - 1) / kGroupsAtOnce;
+    parallel_for(static_cast<std::ptrdiff_t>(shares), threads, [&](std::ptrdiff_t share) {
+      GroupedPaths paths(graph);
+      const std::size_t first = static_cast<std::size_t>(share) * kGroupsAtOnce;
+      for (std::size_t g = first; g < std::min(first + kGroupsAtOnce, some.size()); ++g) {
+        paths.run(some[g], sources, distances);
       }
     });
+    for (const Group& group : some) {
+      done += static_cast<std::ptrdiff_t>(group.size());
+    }
   }
   progress.update("geodesics", source_count, source_count);
   return distances;

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <queue>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -33,6 +36,36 @@ DistanceMatrix floyd_warshall(const NeighbourGraph& graph) {
     }
   }
   return distances;
+}
+
+// Dijkstra's algorithm as it is in books.
+std::vector<double> dijkstra(const NeighbourGraph& graph, std::int32_t source) {
+  std::vector<double> distance(static_cast<std::size_t>(graph.point_count()), kInfinity);
+  using Entry = std::pair<double, std::int32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  distance[static_cast<std::size_t>(source)] = 0.0;
+  queue.push({0.0, source});
+  while (!queue.empty()) {
+    const auto [from, point] = queue.top();
+    queue.pop();
+    for (const NeighbourGraph::Edge& edge : graph.edges_of(point)) {
+      double& to = distance[static_cast<std::size_t>(edge.target)];
+      if (from + edge.length < to) {
+        to = from + edge.length;
+        queue.push({to, edge.target});
+      }
+    }
+  }
+  return distance;
+}
+
+void expect_dijkstra(const NeighbourGraph& graph, const std::vector<std::int32_t>& sources) {
+  const DistanceMatrix found = geodesic_distances(graph, sources, 2);
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const std::vector<double> expected = dijkstra(graph, sources[s]);
+    const auto row = found.row(static_cast<Eigen::Index>(s));
+    ASSERT_TRUE(std::equal(expected.begin(), expected.end(), row.begin())) << s;
+  }
 }
 
 std::vector<std::int32_t> all_of(const NeighbourGraph& graph) {
@@ -72,6 +105,37 @@ TEST(Geodesics, OfEqualAndZeroLengthsEqualFloydWarshall) {
   std::generate_n(points.data(), points.size(),
                   [&] { return static_cast<float>(coordinate(random)); });
   expect_floyd_warshall(NeighbourGraph(120, nearest_neighbours(points, 8, 1)));
+}
+
+// Sources that are many, few, one more than once; in graphs of several parts.
+TEST(Geodesics, EqualDijkstraToTheBit) {
+  std::mt19937 random(24);
+  const FrameMatrix points = test::trajectory_points(random, 100, 10, 25);
+  for (const int k : {2, 12}) {
+    const NeighbourGraph graph(1000, nearest_neighbours(points, k, 1));
+    expect_dijkstra(graph, all_of(graph));
+    expect_dijkstra(graph, {999, 0, 400, 0, 1, 999});
+    std::vector<std::int32_t> shuffled = all_of(graph);
+    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    shuffled.insert(shuffled.end(), {7, 7, 8});
+    expect_dijkstra(graph, shuffled);
+  }
+}
+
+// A ladder whose rungs and rails are of any length: the order of points from one source is far from
+// that from the next.
+TEST(Geodesics, InAnUnevenGraphEqualDijkstraToTheBit) {
+  std::mt19937 random(25);
+  std::lognormal_distribution<double> length(0.0, 3.0);
+  std::vector<PointPair> edges;
+  for (std::int32_t i = 0; i + 2 < 600; ++i) {
+    edges.push_back({i, i + 2, length(random)});
+    if (i % 2 == 0) {
+      edges.push_back({i, i + 1, length(random)});
+    }
+  }
+  const NeighbourGraph graph(600, Neighbours{}, edges);
+  expect_dijkstra(graph, all_of(graph));
 }
 
 TEST(Geodesics, ThatDoNotExistAreInfinite) {
