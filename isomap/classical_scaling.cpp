@@ -112,7 +112,8 @@ TwoEigenpairs all_at_once(const CentredSquares& matrix) {
 }
 
 std::optional<TwoEigenpairs> largest_two(CentredSquares& matrix, double tolerance, int restarts) {
-  constexpr int kBasis = 20; // vectors of the Krylov space
+  // Vectors of the Krylov space; the two converge before it is full where few axes matter, as here.
+  constexpr int kBasis = 10;
   Spectra::SymEigsSolver<CentredSquares> solver(matrix, 2, kBasis);
   solver.init();
   solver.compute(Spectra::SortRule::LargestAlge, restarts, tolerance);
@@ -128,9 +129,9 @@ TwoEigenpairs eigenpairs(CentredSquares& matrix) {
   }
   // A second and third eigenvalue that are next to equal do not come apart; then any two directions
   // of theirs are as good.
-  auto pairs = largest_two(matrix, 1e-10, 60);
+  auto pairs = largest_two(matrix, 1e-10, 120);
   if (!pairs) {
-    pairs = largest_two(matrix, 1e-4, 300);
+    pairs = largest_two(matrix, 1e-4, 600);
   }
   if (!pairs) {
     throw InternalError({.where = "classical scaling", .what = "the eigenvalues do not converge"});
