@@ -2,6 +2,8 @@
 #include "isomap/residual_variance.h"
 
 #include "db/types/parallel_for.h"
+#include "db/types/vector_dispatch.h"
+#include "db/types/vector_lanes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +14,10 @@ namespace phonomime {
 namespace {
 
 // Sums over pairs of x (on the map) and y (along the graph), about a centre near their means.
+template <typename Number>
 struct Moments {
-  double x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
-  void add(double a, double b) {
+  Number x = {}, y = {}, xx = {}, yy = {}, xy = {};
+  void add(const Number& a, const Number& b) {
     x += a;
     y += b;
     xx += a * a;
@@ -30,10 +33,39 @@ struct Moments {
   }
 };
 
-double distance(const MapPlaces& places, Eigen::Index a, Eigen::Index b) {
-  const double dx = places(a, 0) - places(b, 0);
-  const double dy = places(a, 1) - places(b, 1);
+struct Place {
+  double x = 0.0, y = 0.0;
+};
+
+double distance(const Place& from, double x, double y) {
+  const double dx = x - from.x, dy = y - from.y;
   return std::sqrt(dx * dx + dy * dy);
+}
+
+// Of a source at `from` and all places; `along`: its #places distances.
+PHONOMIME_DISPATCHED Moments<double> row_moments(const Place& from, const double* x,
+                                                 const double* y, const double* along,
+                                                 std::size_t count, const Place& centre) {
+  Moments<DoubleLanes> lanes;
+  std::size_t j = 0;
+  for (; j + kDoubleLanes <= count; j += kDoubleLanes) {
+    DoubleLanes dx, dy, length;
+    load(dx, x + j);
+    load(dy, y + j);
+    load(length, along + j);
+    dx -= from.x;
+    dy -= from.y;
+    DoubleLanes shown = dx * dx + dy * dy;
+    take_roots(shown);
+    lanes.add(shown - centre.x, length - centre.y);
+  }
+  Moments<double> sum;
+  for (; j < count; ++j) {
+    sum.add(distance(from, x[j], y[j]) - centre.x, along[j] - centre.y);
+  }
+  sum.add({sum_of_lanes(lanes.x), sum_of_lanes(lanes.y), sum_of_lanes(lanes.xx),
+           sum_of_lanes(lanes.yy), sum_of_lanes(lanes.xy)});
+  return sum;
 }
 
 } // namespace
@@ -45,25 +77,26 @@ double residual_variance(const DistanceMatrix& distances, std::span<const std::i
   if (source_count == 0 || point_count == 0) {
     return 0.0;
   }
-  const auto sums_about = [&](double centre_x, double centre_y) {
-    std::vector<Moments> rows(sources.size());
-    parallel_for(source_count, threads, [&](std::ptrdiff_t s) {
-      Moments moments;
-      const auto source = sources[static_cast<std::size_t>(s)];
-      for (Eigen::Index j = 0; j < point_count; ++j) {
-        moments.add(distance(places, source, j) - centre_x, distances(s, j) - centre_y);
-      }
-      rows[static_cast<std::size_t>(s)] = moments;
-    });
-    Moments sum;
-    for (const Moments& row : rows) {
-      sum.add(row);
-    }
-    return sum;
+  const Eigen::ArrayXd x = places.col(0), y = places.col(1);
+  const auto moments_of = [&](std::size_t s, const Place& centre) {
+    const Eigen::Index at = sources[s];
+    return row_moments({x[at], y[at]}, x.data(), y.data(),
+                       distances.row(static_cast<Eigen::Index>(s)).data(),
+                       static_cast<std::size_t>(point_count), centre);
   };
+  // About the means of one source's distances, so that little cancels.
+  const Moments<double> some = moments_of(sources.size() / 2, {});
+  const Place centre = {some.x / static_cast<double>(point_count),
+                        some.y / static_cast<double>(point_count)};
+  std::vector<Moments<double>> rows(sources.size());
+  parallel_for(source_count, threads, [&](std::ptrdiff_t s) {
+    rows[static_cast<std::size_t>(s)] = moments_of(static_cast<std::size_t>(s), centre);
+  });
+  Moments<double> about;
+  for (const Moments<double>& row : rows) {
+    about.add(row);
+  }
   const double count = static_cast<double>(source_count) * static_cast<double>(point_count);
-  const Moments means = sums_about(0.0, 0.0);
-  const Moments about = sums_about(means.x / count, means.y / count);
   const double variance_x = about.xx - about.x * about.x / count;
   const double variance_y = about.yy - about.y * about.y / count;
   if (variance_x <= 0.0 || variance_y <= 0.0) {
