@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "db/import/sentence_table.h"
 
-#include "db/import/tab_table.h"
 #include "db/types/errors.h"
+#include "db/types/tab_table.h"
 #include "db/types/text.h"
 
 #include <algorithm>

@@ -2,9 +2,10 @@
 #include "synth/retarget/marker_map.h"
 
 #include "db/types/errors.h"
+#include "db/types/tab_table.h"
 #include "db/types/text.h"
 
-#include <algorithm>
+#include <array>
 #include <set>
 
 namespace phonomime {
@@ -12,66 +13,32 @@ namespace {
 
 constexpr std::size_t kFewestMarkers = 4;
 
-struct Columns {
-  std::size_t marker = 0;
-  std::size_t vertex = 0;
-};
-
-Columns read_header(std::string_view line, const std::string& where) {
-  const auto fields = split_fields(line, '\t');
-  const auto column = [&](std::string_view name) {
-    const auto found =
-        std::ranges::find_if(fields, [&](auto field) { return trim(field) == name; });
-    if (found == fields.end()) {
-      throw InputError({.where = where,
-                        .what = "the header line has no column " + quoted(name),
-                        .expected = "marker<TAB>vertex",
-                        .got = quoted(line)});
-    }
-    return static_cast<std::size_t>(found - fields.begin());
-  };
-  return {column("marker"), column("vertex")};
-}
+enum Column : std::size_t { marker, vertex };
+constexpr std::array<std::string_view, 2> kColumns = {"marker", "vertex"};
+constexpr std::array<std::size_t, 2> kRequired = {marker, vertex};
 
 } // namespace
 
 std::vector<MarkerPlace> parse_marker_table(std::string_view text, std::string_view where,
                                             int vertex_count) {
+  TabTable table(text, where, kColumns, kRequired, {.comments = true, .other_columns = true});
   std::vector<MarkerPlace> places;
-  std::optional<Columns> columns;
   std::set<std::string, std::less<>> seen;
-  long line_number = 0;
-  for (const std::string_view line : split_lines(text)) {
-    ++line_number;
-    if (trim(line).empty() || line.front() == '#') {
-      continue;
-    }
-    const std::string place = at_line(where, line_number);
-    if (!columns) {
-      columns = read_header(line, place);
-      continue;
-    }
-    const auto fields = split_fields(line, '\t');
-    if (fields.size() <= std::max(columns->marker, columns->vertex)) {
-      throw InputError({.where = place,
-                        .what = "the line has too few fields",
-                        .expected = "as many as the header line",
-                        .got = std::to_string(fields.size())});
-    }
-    const std::string marker(trim(fields[columns->marker]));
-    const auto field = trim(fields[columns->vertex]);
-    const std::optional<long> vertex = parse_integer(field);
-    if (!vertex || *vertex < 0 || *vertex >= vertex_count) {
+  while (table.next()) {
+    const std::string name(table.field(marker));
+    const std::optional<long> place = parse_integer(table.field(vertex));
+    if (!place || *place < 0 || *place >= vertex_count) {
       throw InputError(
-          {.where = place,
-           .what = "marker " + quoted(marker) + " is on a vertex that the face does not have",
+          {.where = table.where(),
+           .what = "marker " + quoted(name) + " is on a vertex that the face does not have",
            .expected = "0 to " + std::to_string(vertex_count - 1),
-           .got = quoted(field)});
+           .got = quoted(table.field(vertex))});
     }
-    if (!seen.insert(marker).second) {
-      throw InputError({.where = place, .what = "marker " + quoted(marker) + " is placed twice"});
+    if (!seen.insert(name).second) {
+      throw InputError(
+          {.where = table.where(), .what = "marker " + quoted(name) + " is placed twice"});
     }
-    places.push_back({.marker = marker, .vertex = static_cast<int>(*vertex), .line = line_number});
+    places.push_back({.marker = name, .vertex = static_cast<int>(*place), .line = table.line()});
   }
   return places;
 }

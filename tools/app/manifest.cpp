@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/app/manifest.h"
 
-#include "db/import/tab_table.h"
 #include "db/types/errors.h"
+#include "db/types/tab_table.h"
 #include "db/types/text.h"
 #include "tools/app/retime.h"
 #include "tools/app/synth_outputs.h"

@@ -2,9 +2,10 @@
 #include "synth/retarget/mapping/pair_table.h"
 
 #include "db/types/errors.h"
+#include "db/types/tab_table.h"
 #include "db/types/text.h"
 
-#include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 
@@ -15,48 +16,6 @@ namespace {
 
 constexpr std::string_view kFrame = "frame";
 constexpr std::string_view kNote = "note";
-
-// What the columns of a table are, from its header line.
-struct Columns {
-  std::size_t frame = 0;
-  std::optional<std::size_t> note;
-  std::vector<std::size_t> shapes;
-  std::size_t count = 0;
-};
-
-Columns read_header(std::string_view line, const std::string& where,
-                    std::span<const std::string> face_shapes, std::vector<std::string>& shapes) {
-  Columns columns;
-  std::optional<std::size_t> frame;
-  std::set<std::string, std::less<>> seen;
-  for (const std::string_view field : split_fields(line, '\t')) {
-    const std::string name(trim(field));
-    if (!seen.insert(name).second) {
-      throw InputError({.where = where, .what = "column " + quoted(name) + " is there twice"});
-    }
-    if (name == kFrame) {
-      frame = columns.count;
-    } else if (name == kNote) {
-      columns.note = columns.count;
-    } else if (std::ranges::find(face_shapes, name) != face_shapes.end()) {
-      shapes.push_back(name);
-      columns.shapes.push_back(columns.count);
-    } else {
-      throw InputError({.where = where,
-                        .what = "column " + quoted(name) + " is no shape of the face",
-                        .remedy = did_you_mean(name, face_shapes)});
-    }
-    ++columns.count;
-  }
-  if (!frame) {
-    throw InputError({.where = where,
-                      .what = "the header line has no column " + quoted(kFrame),
-                      .expected = "frame, note and the names of shapes, separated by tabs",
-                      .got = quoted(line)});
-  }
-  columns.frame = *frame;
-  return columns;
-}
 
 FrameName parse_frame(std::string_view field, const std::string& where) {
   const std::size_t at = field.rfind('@');
@@ -71,7 +30,6 @@ FrameName parse_frame(std::string_view field, const std::string& where) {
 }
 
 double parse_weight(std::string_view field, const std::string& shape, const std::string& where) {
-  field = trim(field);
   if (field.empty()) {
     return 0.0;
   }
@@ -93,40 +51,30 @@ std::string FrameName::text() const {
 
 PairTable parse_pair_table(std::string_view text, std::string_view where,
                            std::span<const std::string> face_shapes) {
+  std::vector<std::string_view> columns = {kFrame, kNote};
+  columns.insert(columns.end(), face_shapes.begin(), face_shapes.end());
+  constexpr std::array<std::size_t, 1> kRequired = {0};
+  TabTable rows(text, where, columns, kRequired, {.comments = true});
   PairTable table;
-  std::optional<Columns> columns;
+  std::vector<std::size_t> shapes; // columns that the table has
+  for (std::size_t c = 2; c < columns.size(); ++c) {
+    if (rows.has(c)) {
+      shapes.push_back(c);
+      table.shapes.emplace_back(columns[c]);
+    }
+  }
   std::vector<double> weights;
   std::set<std::string, std::less<>> frames;
-  long line_number = 0;
-  for (const std::string_view line : split_lines(text)) {
-    ++line_number;
-    if (trim(line).empty() || line.front() == '#') {
-      continue;
-    }
-    const std::string place = at_line(where, line_number);
-    if (!columns) {
-      columns = read_header(line, place, face_shapes, table.shapes);
-      continue;
-    }
-    auto fields = split_fields(line, '\t');
-    if (fields.size() > columns->count) {
-      throw InputError({.where = place,
-                        .what = "the line has more fields than the header line",
-                        .expected = std::to_string(columns->count),
-                        .got = std::to_string(fields.size())});
-    }
-    fields.resize(columns->count); // what is missing at the end is empty
-    PairTable::Row row{
-        .frame = parse_frame(trim(fields[columns->frame]), place), .note = {}, .line = line_number};
-    if (columns->note) {
-      row.note = trim(fields[*columns->note]);
-    }
+  while (rows.next()) {
+    PairTable::Row row{.frame = parse_frame(rows.field(0), rows.where()),
+                       .note = std::string(rows.field(1)),
+                       .line = rows.line()};
     if (!frames.insert(row.frame.text()).second) {
       throw InputError(
-          {.where = place, .what = "frame " + quoted(row.frame.text()) + " is there twice"});
+          {.where = rows.where(), .what = "frame " + quoted(row.frame.text()) + " is there twice"});
     }
-    for (std::size_t s = 0; s < columns->shapes.size(); ++s) {
-      weights.push_back(parse_weight(fields[columns->shapes[s]], table.shapes[s], place));
+    for (std::size_t s = 0; s < shapes.size(); ++s) {
+      weights.push_back(parse_weight(rows.field(shapes[s]), table.shapes[s], rows.where()));
     }
     table.rows.push_back(std::move(row));
   }

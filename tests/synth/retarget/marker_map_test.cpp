@@ -34,16 +34,16 @@ TEST(MarkerMap, SaysWhatIsWrongAndWhere) {
             "\"20\")");
   EXPECT_TRUE(error_of("marker\tvertex\nlm0\t-1\n").starts_with("markers.tsv:2: "));
   EXPECT_TRUE(error_of("marker\tvertex\nlm0\tfive\n").starts_with("markers.tsv:2: "));
-  EXPECT_TRUE(error_of("marker\tvertex\nlm0\n").starts_with("markers.tsv:2: the line has too few"));
+  EXPECT_TRUE(error_of("marker\tvertex\nlm0\n").starts_with("markers.tsv:2: vertex is empty"));
   EXPECT_TRUE(error_of("marker\tnode\nlm0\t1\n")
-                  .starts_with("markers.tsv:1: the header line has no column"));
+                  .starts_with("markers.tsv:1: column \"vertex\" is missing"));
   EXPECT_TRUE(
       error_of("marker\tvertex\nlm0\t1\nlm3\t1\n").starts_with("markers.tsv:3: two markers"));
   EXPECT_TRUE(error_of("marker\tvertex\nlm0\t1\nlm0\t2\n")
                   .starts_with("markers.tsv:3: marker \"lm0\" is placed"));
   EXPECT_TRUE(
       error_of("marker\tvertex\nlm0\t1\n").starts_with("markers.tsv: the table places too few"));
-  EXPECT_TRUE(error_of("").starts_with("markers.tsv: the table places too few"));
+  EXPECT_TRUE(error_of("").starts_with("markers.tsv: table has no header line"));
 }
 
 TEST(MarkerMap, TakesNumbersFromNames) {

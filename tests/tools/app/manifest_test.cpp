@@ -70,7 +70,7 @@ TEST(Manifest, ACellHoldsForItsRowAndTheCallForEmptyOnes) {
 }
 
 TEST(Manifest, EachFaultIsNamedWithItsLine) {
-  expect_refused("", "shots/m.tsv:1: table has no header line");
+  expect_refused("", "shots/m.tsv: table has no header line");
   expect_refused("id\ttranscript\n", "shots/m.tsv: the manifest has no rows");
   expect_refused("id\toutputs\na\tb.csv\n", "shots/m.tsv:1: column \"transcript\" is missing");
   expect_refused("transcript\temotoin\n", "Did you mean \"emotion\"");

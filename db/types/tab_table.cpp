@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "db/import/tab_table.h"
+#include "db/types/tab_table.h"
 
 #include "db/types/errors.h"
 #include "db/types/text.h"
@@ -12,6 +12,8 @@
 namespace phonomime {
 
 namespace {
+
+constexpr std::size_t kNamesInAMessage = 20;
 
 // "a", "a and b", "a, b and c"
 std::string in_words(std::span<const std::string_view> columns,
@@ -27,8 +29,10 @@ std::string in_words(std::span<const std::string_view> columns,
 } // namespace
 
 TabTable::TabTable(std::string_view text, std::string_view where,
-                   std::span<const std::string_view> columns, std::span<const std::size_t> required)
-    : where_(where), columns_(columns), required_(required), lines_(split_lines(text)) {
+                   std::span<const std::string_view> columns, std::span<const std::size_t> required,
+                   TabTableRules rules)
+    : where_(where), columns_(columns), required_(required), rules_(rules),
+      lines_(split_lines(text)) {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     if (!is_valid_utf8(lines_[i])) {
       throw InputError({.where = at_line(where_, static_cast<long>(i + 1)),
@@ -36,11 +40,19 @@ TabTable::TabTable(std::string_view text, std::string_view where,
                         .remedy = "Save the table as UTF-8."});
     }
   }
-  next_line_ = 1;
-  if (lines_.empty() || trim(lines_.front()).empty()) {
-    throw InputError({.where = this->where(), .what = "table has no header line"});
+  if (!pass_over()) {
+    throw InputError({.where = where_, .what = "table has no header line"});
   }
-  read_header(lines_.front());
+  read_header(lines_[next_line_++]);
+}
+
+// To the next line that says something; false at the end.
+bool TabTable::pass_over() {
+  while (next_line_ < lines_.size() && (trim(lines_[next_line_]).empty() ||
+                                        (rules_.comments && lines_[next_line_].front() == '#'))) {
+    ++next_line_;
+  }
+  return next_line_ < lines_.size();
 }
 
 void TabTable::read_header(std::string_view line) {
@@ -51,11 +63,17 @@ void TabTable::read_header(std::string_view line) {
     const std::string_view name = trim(fields[i]);
     const auto column = std::ranges::find(columns_, name);
     if (column == columns_.end()) {
+      if (rules_.other_columns) {
+        continue;
+      }
       const std::vector<std::string> known(columns_.begin(), columns_.end());
-      throw InputError({.where = where(),
-                        .what = fmt::format("unknown column {}", quoted(name)),
-                        .expected = fmt::format("{}, separated by tabs", fmt::join(columns_, ", ")),
-                        .remedy = did_you_mean(name, known)});
+      throw InputError(
+          {.where = where(),
+           .what = fmt::format("unknown column {}", quoted(name)),
+           .expected = known.size() > kNamesInAMessage
+                           ? std::string()
+                           : fmt::format("{}, separated by tabs", fmt::join(columns_, ", ")),
+           .remedy = did_you_mean(name, known)});
     }
     std::ptrdiff_t& field = field_of_[static_cast<std::size_t>(column - columns_.begin())];
     if (field >= 0) {
@@ -76,10 +94,7 @@ void TabTable::read_header(std::string_view line) {
 }
 
 bool TabTable::next() {
-  while (next_line_ < lines_.size() && trim(lines_[next_line_]).empty()) {
-    ++next_line_;
-  }
-  if (next_line_ == lines_.size()) {
+  if (!pass_over()) {
     return false;
   }
   fields_ = split_fields(lines_[next_line_++], '\t');
