@@ -51,6 +51,9 @@ FEW_FILES = {
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]*)"|<([^>]*)>)')
 TARGET = re.compile(r"(phonomime_library|add_library)\(\s*(\w+)")
 WORD = re.compile(r"[\w:.+-]+")
+# As clang-format leaves them: what stands in a namespace is not indented.
+NAMESPACE = re.compile(r"^(inline )?namespace( [\w:]+)? \{$")
+TYPE = re.compile(r"^(?:struct|class|union|enum(?: class)?) (\w+(?:::\w+)*)\b(?! *;)")
 
 
 def includes(tree, folders):
@@ -142,4 +145,26 @@ def check_links(tree):
     return Findings(len(libraries), problems)
 
 
-LINTS = (check_includes, check_fences, check_links)
+def types_of(tree, path):
+    """(line number, name with its namespaces) of each type that other files could see."""
+    open_namespaces = []
+    for number, line in tree.lines(path):
+        if NAMESPACE.match(line):
+            open_namespaces.append(line.removesuffix("{").split()[-1])
+        elif line.startswith("} // namespace") and open_namespaces:
+            open_namespaces.pop()
+        elif (found := TYPE.match(line)) and "namespace" not in open_namespaces:
+            yield number, "::".join((*open_namespaces, found[1]))
+
+
+def check_types(tree):
+    """No two types of one name: a program that holds both is broken, and no compiler says so."""
+    first, problems = {}, []
+    for path in tree.with_suffix(".cpp", ".h", folders=SOURCE_FOLDERS):
+        for number, name in types_of(tree, path):
+            if first.setdefault(name, path) != path:
+                problems.append(f"{path}:{number}: {name} is in {first[name]} too")
+    return Findings(len(first), problems)
+
+
+LINTS = (check_includes, check_fences, check_links, check_types)

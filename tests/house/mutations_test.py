@@ -90,6 +90,20 @@ class Mutations(unittest.TestCase):
                     lambda text: text.replace(b"GLOBAL_DEPENDS_NO_CYCLES", b"SOMETHING"),
                     "GLOBAL_DEPENDS_NO_CYCLES is not set")
 
+    def test_types(self):
+        lint = architecture.check_types
+        source = "namespace phonomime {\n%s\n} // namespace phonomime"
+        said = "phonomime::Layout is in db/types/layout.h too"
+        for line in ("struct Layout {", "class Layout final : public X {", "enum class Layout { a };",
+                     "struct Layout"):
+            with self.subTest(line):
+                self.expect_line(lint, "synth/x.cpp", source % line, said)
+        for line in ("struct Layout;", "  struct Layout {", "struct Layouts {",
+                     "namespace {\nstruct Layout {};\n} // namespace",
+                     "namespace other {\nstruct Layout {};\n} // namespace other"):
+            with self.subTest(line), self.assertRaises(AssertionError):
+                self.expect_line(lint, "synth/x.cpp", source % line, " is in ")
+
     def test_files(self):
         self.expect_line(files.check_licences, "db/types/x.cpp", "int x;", "x.cpp: no line")
         self.expect_line(files.check_licences, "tools/x", "#!/bin/sh", "tools/x: no line")
