@@ -150,6 +150,18 @@ def write_lab(path, rows):
     return path
 
 
+def read_lab(path):
+    """Rows of an xlabel file: (end in seconds, label)."""
+    body = path.read_text().split("#\n", 1)[1]
+    return [(float(words[0]), words[2]) for words in map(str.split, body.splitlines()) if words]
+
+
+def rigid_markers(corpus):
+    """Names of the markers that a corpus' layout calls rigid."""
+    layout = json.loads((corpus / "layout.json").read_text())
+    return [group["name"] for group in layout["groups"] if "rigid" in group.get("regions", [])]
+
+
 def write_transcript(path, phonemes, each_s=0.1, rest_s=0.3):
     """An xlabel file of phonemes of the same length, with silence at both ends."""
     ends = [rest_s + each_s * (i + 1) for i in range(len(phonemes))]

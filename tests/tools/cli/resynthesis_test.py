@@ -19,22 +19,11 @@ RATE_HZ = 100
 MARKERS = ("lm61", "lm291", "lm0", "lm17", "lm13", "lm14", "lm152", "lm78", "lm308", "lm205", "lm425", "lm1")
 
 
-def read_lab(path):
-    """Rows of an xlabel file: (end in seconds, label)."""
-    body = path.read_text().split("#\n", 1)[1]
-    return [(float(words[0]), words[2]) for words in map(str.split, body.splitlines()) if words]
-
-
 def read_recording(path):
     """Rate, and the markers of each frame: {name: (x, y, z)}, without those that are missing."""
     recording = read_c3d.read(path)
     return recording.rate_hz, [{name: point for name, (*point, residual) in zip(recording.names, frame) if residual >= 0}
                                for frame in recording.frames]
-
-
-def rigid_markers():
-    layout = json.loads((cli.SHARED_DATA / "grid_s1/layout.json").read_text())
-    return [group["name"] for group in layout["groups"] if "rigid" in group.get("regions", [])]
 
 
 def read_motion(path, names):
@@ -85,7 +74,7 @@ class ResynthesisTest(cli.RecordingsTest):
                   for node in cli.run_json("nodes", cls.database, flag)}
         whole = []
         for path in sorted((cli.SHARED_DATA / "grid_s1/alignment").glob("*.lab")):
-            inner = [label for _, label in read_lab(path)[1:-1]]
+            inner = [label for _, label in cli.read_lab(path)[1:-1]]
             if path.stem not in spoilt and not set(inner) & set(SILENCE):
                 whole.append(path)
         cls.sentences = whole[:: len(whole) // SENTENCES][:SENTENCES]
@@ -113,7 +102,7 @@ class ResynthesisTest(cli.RecordingsTest):
         """At the recorded frames that the phonemes hold, to twice what the PCA leaves out (E11)."""
         left_out_mm = pca_error_mm(self.database)
         bound_mm = 2 * left_out_mm
-        rigid = rigid_markers()
+        rigid = cli.rigid_markers(cli.SHARED_DATA / "grid_s1")
         every, worst = [], 0.0
         for path, (motion, result) in self.outputs.items():
             rate, recorded = read_recording(cli.SHARED_DATA / f"grid_s1/motion/{path.stem}.c3d")

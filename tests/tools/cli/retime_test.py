@@ -8,12 +8,6 @@ import tiny_corpus
 SLOW = 1.25  # sadness, against neutral
 
 
-def read_lab(path):
-    """(end in seconds, label) of each row."""
-    rows = [line.split() for line in path.read_text().splitlines()]
-    return [(float(row[0]), row[2]) for row in rows if len(row) == 3]
-
-
 def durations(rows):
     return [end - start for (start, _), (end, _) in zip([(0.0, ""), *rows], rows)]
 
@@ -41,12 +35,12 @@ class RetimeTest(cli.CliTest):
     def retimed(self, *arguments):
         result = self.folder / "hello.json"
         cli.run_well(*self.synth("--retime", "-o", result, *arguments))
-        return read_lab(self.folder / "hello.retimed.lab")
+        return cli.read_lab(self.folder / "hello.retimed.lab")
 
     def test_phonemes_take_the_tempo_of_their_emotion(self):
         rows = self.retimed("--emotion", "sadness")
         self.assertEqual([label for _, label in rows], ["pau", "b", "aa", "m", "iy", "pau"])
-        before, after = durations(read_lab(self.transcript)), durations(rows)
+        before, after = durations(cli.read_lab(self.transcript)), durations(rows)
         for i, (was, now) in enumerate(zip(before, after)):
             with self.subTest(i):
                 self.assertAlmostEqual(now / was, 1.0 if i in (0, 5) else SLOW, delta=0.08)
@@ -67,7 +61,7 @@ class RetimeTest(cli.CliTest):
         self.assertEqual(first, second)
 
     def test_neutral_speech_keeps_its_times(self):
-        self.assertEqual(durations(self.retimed()), durations(read_lab(self.transcript)))
+        self.assertEqual(durations(self.retimed()), durations(cli.read_lab(self.transcript)))
 
     def test_constraints_move_along(self):
         node = next(node["key"] for node in cli.run_json("nodes", self.database, "--phoneme", "iy"))
@@ -97,7 +91,7 @@ class RetimeTest(cli.CliTest):
         call = ["batch", manifest, "--db", self.database, "-o", self.folder / "out/{id}.csv", "--retime"]
         cli.run_well(*call)
         written = self.folder / "out/hello.retimed.lab"
-        self.assertEqual(read_lab(written), self.retimed("--emotion", "sadness"))
+        self.assertEqual(cli.read_lab(written), self.retimed("--emotion", "sadness"))
         self.assertEqual(cli.run_json(*call)["skipped"], 1)
         written.unlink()
         self.assertEqual(cli.run_json(*call)["done"], 1)
