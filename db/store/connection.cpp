@@ -109,6 +109,12 @@ std::shared_ptr<Connection> Connection::open(const fs::path& path, OpenMode mode
   return connection;
 }
 
+void Connection::open_reader(const std::string& name, int flags) {
+  database_ = open_and_touch(name, flags);
+  opened_as_ = name;
+  opened_with_ = flags;
+}
+
 void Connection::open_read_only(std::span<const Migration> migrations) {
   const auto require_content = [&] {
     if (!has_content(path_)) {
@@ -130,11 +136,11 @@ void Connection::open_read_only(std::span<const Migration> migrations) {
                                "to a folder that may be written to."});
     }
     require_content();
-    database_ = open_and_touch(path_.string(), SQLite::OPEN_READONLY);
+    open_reader(path_.string(), SQLite::OPEN_READONLY);
   };
   require_content();
   try {
-    database_ = open_and_touch(path_.string(), SQLite::OPEN_READONLY);
+    open_reader(path_.string(), SQLite::OPEN_READONLY);
   } catch (const SQLite::Exception& failure) {
     const int code = failure.getErrorCode() & 0xff;
     if (code != SQLITE_CANTOPEN && code != SQLITE_READONLY && code != SQLITE_IOERR) {
@@ -149,7 +155,7 @@ void Connection::open_read_only(std::span<const Migration> migrations) {
                      .remedy = "Copy both files to such a folder."});
     } else {
       // Read-only media, or a folder where no file may be made: nobody can be writing.
-      database_ = open_and_touch(immutable_uri(path_), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
+      open_reader(immutable_uri(path_), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
     }
   }
   const SchemaIdentity identity = read_identity(*database_);
@@ -201,6 +207,24 @@ void Connection::check_length() const {
   if (!failure && size % page_size != 0 && !has_content(beside(path_, "-wal")) &&
       !has_content(beside(path_, "-journal"))) {
     throw_damaged(where_, "its end is cut off");
+  }
+}
+
+// In rollback mode no file changes while a transaction reads it; in WAL mode it does.
+std::unique_ptr<SQLite::Database> Connection::reader_beside() const {
+  if (opened_as_.empty() || journal_mode(*database_) == "wal") {
+    return nullptr;
+  }
+  try {
+    auto reader =
+        std::make_unique<SQLite::Database>(opened_as_, opened_with_ | SQLite::OPEN_NOMUTEX, 0);
+    reader->exec(kReadPragmas);
+    reader->exec("BEGIN; SELECT count(*) FROM sqlite_schema");
+    int moved = 1; // another file has the name now
+    sqlite3_file_control(database_->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+    return moved == 0 ? std::move(reader) : nullptr;
+  } catch (const SQLite::Exception&) {
+    return nullptr;
   }
 }
 

@@ -33,6 +33,11 @@ public:
   const std::filesystem::path& path() const { return path_; }
   bool writable() const { return writable_; }
 
+  // A connection for one other thread that reads the same state, while this one is within a
+  // transaction that has begun to read. Nothing where that cannot be promised at once: this one
+  // writes, the database is in WAL mode, a writer waits for its readers to leave.
+  std::unique_ptr<SQLite::Database> reader_beside() const;
+
   // WAL mode for an import. Throws SQLite::Exception (busy).
   void begin_writing();
 
@@ -49,6 +54,7 @@ public:
 
 private:
   Connection(std::filesystem::path path, std::string where) noexcept;
+  void open_reader(const std::string& name, int flags);
   void open_read_only(std::span<const Migration> migrations);
   void open_read_write(std::span<const Migration> migrations);
   void check_length() const;
@@ -57,6 +63,8 @@ private:
   std::filesystem::path path_; // absolute
   std::string where_;          // as given, for messages
   std::unique_ptr<SQLite::Database> database_;
+  std::string opened_as_; // what SQLite was asked to open, and how; empty where it writes
+  int opened_with_ = 0;
   bool writable_ = false;
   bool made_new_ = false;     // this connection made the tables
   bool file_existed_ = false; // as an empty file, where made_new_

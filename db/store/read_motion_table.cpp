@@ -3,16 +3,22 @@
 #include "db/store/database_impl.h"
 #include "db/store/read_common.h"
 #include "db/store/store_error.h"
+#include "db/types/parallel_for.h"
 #include "db/types/text.h"
 
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <omp.h>
+#include <sys/mman.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <memory>
 #include <unordered_map>
+#include <utility>
 
 namespace phonomime {
 namespace {
@@ -49,6 +55,20 @@ store::NamedRow choose_speaker(const Connection& connection, const std::string& 
        .remedy = wanted.empty() ? "Choose one with --speaker." : did_you_mean(wanted, names)});
 }
 
+// Memory that is about to be filled takes less time to fill so. No more than a hint.
+void ask_for_large_pages([[maybe_unused]] std::span<float> numbers) {
+#ifdef MADV_HUGEPAGE
+  constexpr std::size_t kLargePage = std::size_t{2} << 20;
+  void* begin = numbers.data();
+  std::size_t bytes = numbers.size_bytes();
+  if (std::align(kLargePage, kLargePage, begin, bytes) != nullptr) {
+    madvise(begin, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
+  }
+#endif
+}
+
+constexpr int kMostParts = 4; // that are read side by side
+
 // Fills a MotionTable within one read transaction.
 class TableReader {
 public:
@@ -70,6 +90,7 @@ public:
     read_corpora(speaker.id);
     read_symbols();
     read_sentences(speaker.id);
+    divide();
     read_nodes();
     link_captured_neighbours();
     read_coefficients();
@@ -152,23 +173,81 @@ private:
     }
   }
 
-  void read_nodes() {
-    SQLite::Statement statement(
-        connection_.database(),
-        "SELECT n.row, n.first_frame, n.frame_count, n.phoneme_id, n.previous_phoneme_id, "
-        "n.next_phoneme_id, n.emotion_id, n.has_gap, p.pruned_by, p.pruned_at, p.reason "
-        "FROM nodes n LEFT JOIN prunings p ON p.sentence_id = n.sentence_id AND p.row = n.row "
-        "WHERE n.sentence_id = ? ORDER BY n.row");
-    for (std::size_t s = 0; s < sentences_.size(); ++s) {
-      statement.reset();
-      statement.bind(1, sentences_[s].id);
-      while (statement.executeStep()) {
-        read_node(statement, static_cast<std::int32_t>(s));
+  // What one thread reads: the sentences [begin, end), and what they hold.
+  struct Part {
+    std::unique_ptr<SQLite::Database> reader; // nothing: the connection itself
+    std::size_t begin = 0, end = 0;           // into sentences_
+    std::vector<MotionNode> nodes;
+    std::vector<UnavailableNode> unavailable;
+  };
+
+  // Into parts of about as many frames for as many threads as there are and can read.
+  void divide() {
+    const auto most = static_cast<std::size_t>(std::clamp(omp_get_max_threads(), 1, kMostParts));
+    std::vector<std::unique_ptr<SQLite::Database>> readers;
+    while (most > 1 && readers.size() < most) {
+      readers.push_back(connection_.reader_beside());
+      if (!readers.back()) {
+        readers.clear();
+        break;
       }
+    }
+    readers.resize(std::max<std::size_t>(1, readers.size()));
+    for (std::size_t p = 0; p < readers.size(); ++p) {
+      const std::int64_t end_frame = frame_total_ * static_cast<std::int64_t>(p + 1) /
+                                     static_cast<std::int64_t>(readers.size());
+      const auto end = std::ranges::lower_bound(sentences_, end_frame, {}, &Sentence::first_frame);
+      parts_.push_back({std::move(readers[p]),
+                        p == 0 ? 0 : parts_[p - 1].end,
+                        static_cast<std::size_t>(end - sentences_.begin()),
+                        {},
+                        {}});
     }
   }
 
-  void read_node(SQLite::Statement& row, std::int32_t sentence) {
+  const SQLite::Database& database_of(const Part& part) const {
+    return part.reader ? *part.reader : connection_.database();
+  }
+
+  template <typename Read>
+  void read_parts(const Read& read) {
+    parallel_for(static_cast<std::ptrdiff_t>(parts_.size()), 0,
+                 [&](std::ptrdiff_t part) { read(parts_[static_cast<std::size_t>(part)]); });
+  }
+
+  void read_nodes() {
+    read_prunings();
+    read_parts([this](Part& part) {
+      SQLite::Statement statement(database_of(part),
+                                  "SELECT row, first_frame, frame_count, phoneme_id, "
+                                  "previous_phoneme_id, next_phoneme_id, emotion_id, has_gap "
+                                  "FROM nodes WHERE sentence_id = ? ORDER BY row");
+      for (std::size_t s = part.begin; s < part.end; ++s) {
+        statement.reset();
+        statement.bind(1, sentences_[s].id);
+        while (statement.executeStep()) {
+          read_node(statement, static_cast<std::int32_t>(s), part);
+        }
+      }
+    });
+    for (Part& part : parts_) {
+      table_.nodes.insert(table_.nodes.end(), part.nodes.begin(), part.nodes.end());
+      std::ranges::move(part.unavailable, std::back_inserter(table_.unavailable));
+    }
+  }
+
+  void read_prunings() {
+    SQLite::Statement statement(connection_.database(),
+                                "SELECT sentence_id, row, pruned_by, pruned_at, reason "
+                                "FROM prunings");
+    while (statement.executeStep()) {
+      prunings_[{statement.getColumn(0).getInt64(), statement.getColumn(1).getInt()}] = fmt::format(
+          "pruned by {} on {}: {}", statement.getColumn(2).getString(),
+          statement.getColumn(3).getString().substr(0, 10), statement.getColumn(4).getString());
+    }
+  }
+
+  void read_node(SQLite::Statement& row, std::int32_t sentence, Part& part) const {
     const Sentence& owner = sentences_[static_cast<std::size_t>(sentence)];
     MotionNode node;
     node.sentence = sentence;
@@ -179,15 +258,12 @@ private:
       throw_damaged(connection_.where(),
                     fmt::format("frames of {} outside its sentence", key(sentence, node.order)));
     }
-    if (!row.isColumnNull(8)) {
-      table_.unavailable.push_back(
-          {key(sentence, node.order),
-           fmt::format("pruned by {} on {}: {}", row.getColumn(8).getString(),
-                       row.getColumn(9).getString().substr(0, 10), row.getColumn(10).getString())});
+    if (const auto pruned = prunings_.find({owner.id, node.order}); pruned != prunings_.end()) {
+      part.unavailable.push_back({key(sentence, node.order), pruned->second});
       return;
     }
     if (row.getColumn(7).getInt() != 0) {
-      table_.unavailable.push_back({key(sentence, node.order), "has unfilled gaps"});
+      part.unavailable.push_back({key(sentence, node.order), "has unfilled gaps"});
       return;
     }
     node.first_frame = owner.first_frame + first;
@@ -197,7 +273,7 @@ private:
     node.next_phoneme = at(phoneme_index_, row.getColumn(5).getInt64(), connection_);
     node.emotion = at(emotion_index_, row.getColumn(6).getInt64(), connection_);
     node.viseme = viseme_of_phoneme_[static_cast<std::size_t>(node.phoneme)];
-    table_.nodes.push_back(node);
+    part.nodes.push_back(node);
   }
 
   // Rows of silence have no node and what is pruned or has gaps is not in the table, so a captured
@@ -216,22 +292,27 @@ private:
   void read_coefficients() {
     const Eigen::Index dimensions = table_.pca.dimension_count();
     table_.coefficients.resize(frame_total_, dimensions);
-    SQLite::Statement statement(connection_.database(),
-                                "SELECT frames FROM coefficients WHERE sentence_id = ?");
-    for (const Sentence& sentence : sentences_) {
-      statement.reset();
-      statement.bind(1, sentence.id);
-      if (!statement.executeStep()) {
-        throw_damaged(connection_.where(), "a sentence without coefficients");
+    ask_for_large_pages(std::span(table_.coefficients.data(),
+                                  static_cast<std::size_t>(table_.coefficients.size())));
+    read_parts([this](const Part& part) {
+      SQLite::Statement statement(database_of(part),
+                                  "SELECT frames FROM coefficients WHERE sentence_id = ?");
+      for (std::size_t s = part.begin; s < part.end; ++s) {
+        const Sentence& sentence = sentences_[s];
+        statement.reset();
+        statement.bind(1, sentence.id);
+        if (!statement.executeStep()) {
+          throw_damaged(connection_.where(), "a sentence without coefficients");
+        }
+        auto block = table_.coefficients.middleRows(sentence.first_frame, sentence.frame_count);
+        store::copy_numbers(statement.getColumn(0),
+                            std::span(block.data(), static_cast<std::size_t>(block.size())),
+                            connection_.where(), "a sentence's coefficients");
+        if (!block.allFinite()) {
+          throw_damaged(connection_.where(), "coefficients that are no numbers");
+        }
       }
-      auto block = table_.coefficients.middleRows(sentence.first_frame, sentence.frame_count);
-      store::copy_numbers(statement.getColumn(0),
-                          std::span(block.data(), static_cast<std::size_t>(block.size())),
-                          connection_.where(), "a sentence's coefficients");
-      if (!block.allFinite()) {
-        throw_damaged(connection_.where(), "coefficients that are no numbers");
-      }
-    }
+    });
   }
 
   std::string key(std::int32_t sentence, std::int32_t order) const {
@@ -245,6 +326,8 @@ private:
   std::vector<std::int32_t> viseme_of_phoneme_;
   std::vector<Sentence> sentences_;
   std::int64_t frame_total_ = 0;
+  std::map<std::pair<std::int64_t, std::int32_t>, std::string> prunings_; // by sentence and row
+  std::vector<Part> parts_;
 };
 
 } // namespace

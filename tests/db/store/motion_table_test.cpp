@@ -9,6 +9,7 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 namespace phonomime {
 namespace {
@@ -193,6 +194,48 @@ TEST_F(MotionTableTest, CoefficientsAreTheProjectionOfTheNodesOwnFrames) {
       }
     }
   }
+}
+
+// By one connection, which may write, and by several side by side.
+TEST_F(MotionTableTest, IsTheSameHoweverManyThreadsRead) {
+  corpus = test::made_corpus("many", 9);
+  corpus.sentences[3].nodes[1].has_gap = true;
+  corpus.sentences[7].nodes[2].has_gap = true;
+  import();
+  {
+    MotionDatabase database = MotionDatabase::open(path, OpenMode::read_write);
+    database.curate({.action = CurationAction::prune,
+                     .keys = {"many0#2", "many8#3"},
+                     .by = "ann",
+                     .reason = "jump"});
+  }
+  const auto nodes_of = [](const MotionTable& table) {
+    std::vector<std::vector<std::int64_t>> nodes;
+    for (const MotionNode& n : table.nodes) {
+      nodes.push_back({n.phoneme, n.viseme, n.emotion, n.sentence, n.order, n.previous_phoneme,
+                       n.next_phoneme, n.predecessor, n.successor, n.first_frame, n.frame_count});
+    }
+    return nodes;
+  };
+  const auto unavailable_of = [](const MotionTable& table) {
+    std::vector<std::string> texts;
+    for (const UnavailableNode& node : table.unavailable) {
+      texts.push_back(node.key + ": " + node.reason);
+    }
+    return texts;
+  };
+  const MotionTable alone =
+      MotionDatabase::open(path, OpenMode::read_write).load_motion_table("s1");
+  EXPECT_EQ(unavailable_of(alone).size(), 4u);
+  const int usual = omp_get_max_threads();
+  for (const int threads : {1, 2, 3, 16}) {
+    omp_set_num_threads(threads);
+    const MotionTable table = load("s1");
+    EXPECT_EQ(nodes_of(table), nodes_of(alone)) << threads;
+    EXPECT_EQ(unavailable_of(table), unavailable_of(alone)) << threads;
+    EXPECT_EQ(table.coefficients, alone.coefficients) << threads;
+  }
+  omp_set_num_threads(usual);
 }
 
 TEST_F(MotionTableTest, ChannelsAndHeadPosesComeBackBitForBit) {
