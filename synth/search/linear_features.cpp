@@ -17,22 +17,40 @@ FrameMatrixD padded_transpose(const FrameMatrixD& rows, std::size_t stride) {
   return result;
 }
 
+// The kParts * kDoubleLanes features of project() from weights on; their sums do not wait for each
+// other.
+template <std::size_t kParts>
+inline void project_parts(const double* weights, const float* before, const float* after,
+                          std::size_t dimensions, std::size_t stride, float* features) {
+  DoubleLanes sums[kParts] = {};
+  for (std::size_t k = 0; k < dimensions; ++k) {
+    const double start = before == nullptr ? 0.0 : static_cast<double>(before[k]);
+    const double change = static_cast<double>(after[k]) - start;
+    for (std::size_t part = 0; part < kParts; ++part) {
+      DoubleLanes row;
+      load(row, weights + k * stride + part * kDoubleLanes);
+      sums[part] += row * change;
+    }
+  }
+  for (std::size_t part = 0; part < kParts; ++part) {
+    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
+      features[part * kDoubleLanes + lane] = static_cast<float>(sums[part][lane]);
+    }
+  }
+}
+
 // features[f] = float(sum over k of weights[k * stride + f] * (after[k] - before[k])), before = 0
 // where it is null; stride a multiple of the number of lanes.
 PHONOMIME_DISPATCHED
 void project(const double* weights, const float* before, const float* after, std::size_t dimensions,
              std::size_t stride, float* features) {
-  for (std::size_t f = 0; f < stride; f += kDoubleLanes) {
-    DoubleLanes sum = {};
-    for (std::size_t k = 0; k < dimensions; ++k) {
-      DoubleLanes row;
-      load(row, weights + k * stride + f);
-      const double start = before == nullptr ? 0.0 : static_cast<double>(before[k]);
-      sum += row * (static_cast<double>(after[k]) - start);
-    }
-    for (std::size_t lane = 0; lane < kDoubleLanes; ++lane) {
-      features[f + lane] = static_cast<float>(sum[lane]);
-    }
+  constexpr std::size_t kParts = 4;
+  std::size_t f = 0;
+  for (; f + kParts * kDoubleLanes <= stride; f += kParts * kDoubleLanes) {
+    project_parts<kParts>(weights + f, before, after, dimensions, stride, features + f);
+  }
+  for (; f < stride; f += kDoubleLanes) {
+    project_parts<1>(weights + f, before, after, dimensions, stride, features + f);
   }
 }
 
