@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/join_sketch.h"
 
+#include "db/types/vector_dispatch.h"
 #include "synth/search/group_weights.h"
 #include "synth/search/linear_features.h"
 #include "synth/search/motion_clusters.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -59,22 +60,20 @@ FrameMatrixD sketch_rows(const std::vector<Eigen::MatrixXd>& clusters,
   return rows;
 }
 
-// Puts nodes[0, count) in an order where neighbours are alike, by halving along the widest feature.
-void order_by_halves(NodeIndex* nodes, std::size_t count, const float* features) {
-  constexpr std::size_t kLeaf = 8;
-  constexpr std::size_t kWidth = JoinSketch::kFeatures;
-  if (count <= kLeaf) {
-    return;
-  }
-  std::array<float, kWidth> low;
-  std::array<float, kWidth> high;
-  low.fill(std::numeric_limits<float>::max());
-  high.fill(std::numeric_limits<float>::lowest());
+constexpr std::size_t kWidth = JoinSketch::kFeatures;
+
+// Along which feature nodes[0, count) differ most.
+PHONOMIME_DISPATCHED
+std::size_t widest_feature(const NodeIndex* nodes, std::size_t count, const float* features) {
+  float low[kWidth];
+  float high[kWidth];
+  std::fill_n(low, kWidth, std::numeric_limits<float>::max());
+  std::fill_n(high, kWidth, std::numeric_limits<float>::lowest());
   for (std::size_t i = 0; i < count; ++i) {
     const float* own = features + static_cast<std::size_t>(nodes[i]) * kWidth;
     for (std::size_t f = 0; f < kWidth; ++f) {
-      low[f] = std::min(low[f], own[f]);
-      high[f] = std::max(high[f], own[f]);
+      low[f] = own[f] < low[f] ? own[f] : low[f];
+      high[f] = own[f] > high[f] ? own[f] : high[f];
     }
   }
   std::size_t widest = 0;
@@ -83,48 +82,61 @@ void order_by_halves(NodeIndex* nodes, std::size_t count, const float* features)
       widest = f;
     }
   }
+  return widest;
+}
+
+// Puts nodes[0, count) in an order where neighbours are alike, by halving along the widest feature.
+// `values`: room for as many.
+void order_by_halves(NodeIndex* nodes, std::size_t count, const float* features,
+                     std::pair<float, NodeIndex>* values) {
+  constexpr std::size_t kLeaf = 8;
+  if (count <= kLeaf) {
+    return;
+  }
+  const std::size_t widest = widest_feature(nodes, count, features);
   // Left parts hold whole groups of eight, and of eight times eight, where there are so many.
   std::size_t unit = kLeaf;
   while (unit * kLeaf < count) {
     unit *= kLeaf;
   }
   const std::size_t left = std::max(unit, count / 2 / unit * unit);
-  const auto value = [&](NodeIndex node) {
-    return features[static_cast<std::size_t>(node) * kWidth + widest];
-  };
-  std::nth_element(nodes, nodes + left, nodes + count, [&](NodeIndex a, NodeIndex b) {
-    return value(a) != value(b) ? value(a) < value(b) : a < b;
-  });
-  order_by_halves(nodes, left, features);
-  order_by_halves(nodes + left, count - left, features);
+  for (std::size_t i = 0; i < count; ++i) {
+    values[i] = {features[static_cast<std::size_t>(nodes[i]) * kWidth + widest], nodes[i]};
+  }
+  std::nth_element(values, values + left, values + count);
+  for (std::size_t i = 0; i < count; ++i) {
+    nodes[i] = values[i].second;
+  }
+  order_by_halves(nodes, left, features, values);
+  order_by_halves(nodes + left, count - left, features, values);
 }
 
 std::vector<NodeIndex> order_ends(const MotionTable& table, NodeEnd which,
                                   const std::vector<float>& features) {
-  const auto visemes = static_cast<std::int64_t>(table.visemes.size()) + 1;
-  const auto emotions = static_cast<std::int64_t>(table.emotions.size());
-  std::vector<std::int64_t> keys;
-  keys.reserve(table.nodes.size());
+  const std::size_t visemes = table.visemes.size() + 1;
+  const std::size_t emotions = table.emotions.size();
+  std::vector<std::size_t> class_of(table.nodes.size());
+  std::vector<std::size_t> begins(visemes * table.phonemes.size() * emotions + 1, 0);
   for (NodeIndex node = 0; node < table.node_count(); ++node) {
     const MotionNode& info = table.nodes[static_cast<std::size_t>(node)];
-    keys.push_back(((join_viseme(table, which, node) + 1) + visemes * info.phoneme) * emotions +
-                   info.emotion);
+    const auto viseme = static_cast<std::size_t>(join_viseme(table, which, node) + 1);
+    const std::size_t own = (viseme + visemes * static_cast<std::size_t>(info.phoneme)) * emotions +
+                            static_cast<std::size_t>(info.emotion);
+    class_of[static_cast<std::size_t>(node)] = own;
+    ++begins[own + 1];
   }
-  const auto key = [&](NodeIndex node) { return keys[static_cast<std::size_t>(node)]; };
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
   std::vector<NodeIndex> order(table.nodes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, key);
-  std::vector<std::size_t> begins;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i == 0 || key(order[i]) != key(order[i - 1])) {
-      begins.push_back(i);
-    }
+  std::vector<std::size_t> next(begins.begin(), begins.end() - 1);
+  for (NodeIndex node = 0; node < table.node_count(); ++node) {
+    order[next[class_of[static_cast<std::size_t>(node)]]++] = node;
   }
-  const std::size_t classes = begins.size();
-  begins.push_back(order.size());
+  std::vector<std::pair<float, NodeIndex>> values(order.size());
+  const std::size_t classes = next.size();
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < classes; ++i) {
-    order_by_halves(order.data() + begins[i], begins[i + 1] - begins[i], features.data());
+    order_by_halves(order.data() + begins[i], begins[i + 1] - begins[i], features.data(),
+                    values.data() + begins[i]);
   }
   return order;
 }

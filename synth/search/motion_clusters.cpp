@@ -11,23 +11,26 @@ namespace phonomime {
 
 namespace {
 
-// The orthogonal matrix that turns `rows` towards `target` best (both #axes by #dimensions), and
-// the squared distance that is left.
-struct Turn {
-  Eigen::MatrixXd matrix;
-  double distance_sq = 0.0;
-};
-
-Turn procrustes(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& target) {
+// What is left of the squared distance of `rows` from `target` (both #axes by #dimensions) when an
+// orthogonal matrix turns them towards it as well as can be.
+double turned_distance_sq(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& target) {
   const double norms = rows.squaredNorm() + target.squaredNorm();
   if (rows.rows() == 1) {
+    return norms - 2.0 * std::abs((target * rows.transpose())(0, 0));
+  }
+  const Eigen::Matrix3d product = target * rows.transpose();
+  return norms - 2.0 * Eigen::JacobiSVD<Eigen::Matrix3d>(product).singularValues().sum();
+}
+
+// That matrix (Procrustes).
+Eigen::MatrixXd turn_towards(const Eigen::MatrixXd& rows, const Eigen::MatrixXd& target) {
+  if (rows.rows() == 1) {
     const double product = (target * rows.transpose())(0, 0);
-    return {Eigen::MatrixXd::Constant(1, 1, product < 0.0 ? -1.0 : 1.0),
-            norms - 2.0 * std::abs(product)};
+    return Eigen::MatrixXd::Constant(1, 1, product < 0.0 ? -1.0 : 1.0);
   }
   const Eigen::Matrix3d product = target * rows.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return {svd.matrixU() * svd.matrixV().transpose(), norms - 2.0 * svd.singularValues().sum()};
+  return svd.matrixU() * svd.matrixV().transpose();
 }
 
 // Farthest-point seeds: fixed order, no chance.
@@ -39,7 +42,7 @@ std::vector<Eigen::MatrixXd> seed_centres(const std::vector<Eigen::MatrixXd>& ro
   while (centres.size() < count) {
     centres.push_back(rows[farthest]);
     for (std::size_t g = 0; g < rows.size(); ++g) {
-      distance[g] = std::min(distance[g], procrustes(rows[g], centres.back()).distance_sq);
+      distance[g] = std::min(distance[g], turned_distance_sq(rows[g], centres.back()));
     }
     farthest = static_cast<std::size_t>(std::ranges::max_element(distance) - distance.begin());
   }
@@ -51,7 +54,7 @@ std::size_t nearest_centre(const Eigen::MatrixXd& rows,
   std::size_t best = 0;
   double best_distance = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < centres.size(); ++c) {
-    const double distance = procrustes(rows, centres[c]).distance_sq;
+    const double distance = turned_distance_sq(rows, centres[c]);
     if (distance < best_distance) {
       best = c;
       best_distance = distance;
@@ -79,9 +82,14 @@ std::vector<Eigen::MatrixXd> cluster_channel_groups(const MotionTable& table,
     std::vector<Eigen::MatrixXd> sums(clusters, zero);
     std::vector<int> members(clusters, 0);
     projections.assign(clusters, zero);
+    std::vector<std::size_t> cluster_of(rows.size());
+#pragma omp parallel for schedule(static)
     for (std::size_t g = 0; g < rows.size(); ++g) {
-      const std::size_t c = nearest_centre(rows[g], centres);
-      const Eigen::MatrixXd turn = procrustes(rows[g], centres[c]).matrix;
+      cluster_of[g] = nearest_centre(rows[g], centres);
+    }
+    for (std::size_t g = 0; g < rows.size(); ++g) {
+      const std::size_t c = cluster_of[g];
+      const Eigen::MatrixXd turn = turn_towards(rows[g], centres[c]);
       sums[c] += turn * rows[g];
       ++members[c];
       projections[c] += turn * basis.middleRows(axes * static_cast<int>(g), axes);
