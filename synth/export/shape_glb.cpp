@@ -2,10 +2,8 @@
 #include "synth/export/shape_glb.h"
 
 #include "db/types/errors.h"
+#include "synth/retarget/glb_container.h"
 
-#include <bit>
-#include <cstdint>
-#include <cstring>
 #include <map>
 #include <utility>
 
@@ -17,100 +15,6 @@ namespace phonomime {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
-
-constexpr int kFloat = 5126;
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
-constexpr std::uint32_t kBinaryChunk = 0x004E4942;
-
-std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + at, sizeof word);
-  return word;
-}
-
-void append_word(std::string& bytes, std::size_t word) {
-  const auto value = static_cast<std::uint32_t>(word);
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-// The JSON and the data of a GLB.
-struct Container {
-  Json json;
-  std::string binary;
-
-  // Appends numbers and describes them as `type`, which has so many components: the accessor's
-  // index.
-  std::size_t add(const std::vector<float>& numbers, const char* type, std::size_t width) {
-    binary.resize((binary.size() + 3) / 4 * 4, '\0');
-    json["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", 4 * numbers.size()}});
-    binary.append(reinterpret_cast<const char*>(numbers.data()), 4 * numbers.size());
-    json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
-                                 {"componentType", kFloat},
-                                 {"count", numbers.size() / width},
-                                 {"type", type}});
-    return json["accessors"].size() - 1;
-  }
-
-  std::string bytes() {
-    binary.resize((binary.size() + 3) / 4 * 4, '\0');
-    json["buffers"][0]["byteLength"] = binary.size();
-    std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::string glb = "glTF";
-    append_word(glb, 2);
-    append_word(glb, 28 + text.size() + binary.size());
-    append_word(glb, text.size());
-    append_word(glb, kJsonChunk);
-    glb += text;
-    append_word(glb, binary.size());
-    append_word(glb, kBinaryChunk);
-    return glb + binary;
-  }
-};
-
-Container parse_container(std::string_view glb, std::string_view where) {
-  const auto fail = [&](const char* what) {
-    throw InputError({.where = std::string(where), .what = what});
-  };
-  Container container;
-  bool has_data = false;
-  for (std::size_t at = 12; at + 8 <= glb.size();) {
-    const std::size_t size = word_at(glb, at);
-    const std::uint32_t kind = word_at(glb, at + 4);
-    if (size > glb.size() - at - 8) {
-      fail("this binary glTF file is damaged");
-    }
-    if (kind == kJsonChunk) {
-      container.json = Json::parse(glb.substr(at + 8, size), nullptr, false);
-    } else if (kind == kBinaryChunk && !has_data) {
-      container.binary = glb.substr(at + 8, size);
-      has_data = true;
-    }
-    at += 8 + size;
-  }
-  if (!container.json.is_object()) {
-    fail("this binary glTF file is damaged");
-  }
-  Json& buffers = container.json["buffers"];
-  if (buffers.is_array() && !buffers.empty() && buffers[0].contains("uri")) {
-    fail("the data of this face are not in its own file");
-  }
-  if (!has_data || !buffers.is_array() || buffers.empty()) {
-    if (buffers.is_array() && !buffers.empty()) {
-      fail("this binary glTF file is damaged");
-    }
-    buffers = Json::array({{{"byteLength", 0}}});
-  }
-  for (const char* list : {"bufferViews", "accessors"}) {
-    if (!container.json[list].is_array()) {
-      container.json[list] = Json::array();
-    }
-  }
-  return container;
-}
 
 void note(Json& json, const GlbNotes& notes) {
   json["asset"]["version"] = "2.0";
@@ -140,16 +44,10 @@ std::vector<std::string> target_names(const Json& mesh, std::size_t index, std::
 
 class Animation {
 public:
-  Animation(Container& container, const ShapeMotion& motion)
+  Animation(GlbContainer& container, const ShapeMotion& motion)
       : container_(container), motion_(motion) {
-    const Eigen::Index frames = motion.weights.frames.rows();
-    std::vector<float> times;
-    for (Eigen::Index frame = 0; frame < frames; ++frame) {
-      times.push_back(static_cast<float>(static_cast<double>(frame) / motion.weights.rate_hz));
-    }
-    times_ = container.add(times, "SCALAR", 1);
-    container.json["accessors"][times_]["min"] = {times.front()};
-    container.json["accessors"][times_]["max"] = {times.back()};
+    times_ = container.add_times(static_cast<std::size_t>(motion.weights.frames.rows()),
+                                 motion.weights.rate_hz);
     for (std::size_t g = 0; g < motion.weights.groups.size(); ++g) {
       column_.emplace(motion.weights.groups[g], static_cast<Eigen::Index>(g));
     }
@@ -203,7 +101,7 @@ private:
         {{"input", times_}, {"output", samples}, {"interpolation", "LINEAR"}});
   }
 
-  Container& container_;
+  GlbContainer& container_;
   const ShapeMotion& motion_;
   std::size_t times_ = 0;
   std::map<std::string, Eigen::Index, std::less<>> column_;
@@ -220,7 +118,7 @@ std::size_t add_head_node(Json& json) {
   return node;
 }
 
-void animate(Container& container, const ShapeMotion& motion, const GlbNotes& notes) {
+void animate(GlbContainer& container, const ShapeMotion& motion, const GlbNotes& notes) {
   Json& json = container.json;
   note(json, notes);
   Animation animation(container, motion);
@@ -254,7 +152,7 @@ std::string animated_glb(std::string_view glb, std::string_view where, const Sha
       (!motion.head.empty() && static_cast<Eigen::Index>(motion.head.size()) != frames)) {
     throw InternalError({.what = "weights and head do not fit each other"});
   }
-  Container container = parse_container(glb, where);
+  GlbContainer container = parse_glb_container(glb, where);
   try {
     animate(container, motion, notes);
   } catch (const nlohmann::json::exception& defect) {

@@ -17,7 +17,7 @@ namespace phonomime {
 class JointFigure {
 public:
   // Binary glTF 2.0. `where` names it. Throws InputError.
-  JointFigure(std::string glb, std::string where);
+  JointFigure(const std::string& glb, std::string where);
   JointFigure(JointFigure&&) noexcept;
   ~JointFigure();
 

@@ -94,10 +94,11 @@ TEST(JointFigure, SaysWhatIsWrong) {
                      R"(figure.glb: the figure has no node "jow". Did you mean "jaw"?)");
   test::expect_error([&] { figure_glb.targets(jaw_rig("arm", q, q)); }, "placed by a matrix");
   test::expect_error([] { JointFigure("not a glb", "x.glb"); },
-                     "x.glb: the file is no binary glTF");
+                     "x.glb: this is not a binary glTF file");
   std::string cut = figure();
   cut.resize(40);
-  test::expect_error([&] { JointFigure(cut, "x.glb"); }, "x.glb: the file ends early");
+  test::expect_error([&] { JointFigure(cut, "x.glb"); },
+                     "x.glb: this binary glTF file is cut short");
   test::expect_error([] { JointFigure(test::glb_container("{}", ""), "x.glb"); }, "list of nodes");
   test::expect_error([] { JointFigure(test::glb_container("[", ""), "x.glb"); }, "x.glb");
 }
