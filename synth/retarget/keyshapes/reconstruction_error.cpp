@@ -21,23 +21,23 @@ std::vector<Eigen::Index> frames_of(const KeyshapeSelection& selection, std::siz
   return frames;
 }
 
+// Each so-manieth row.
 FrameMatrixD thinned(const FrameMatrixD& frames, int every) {
   const Eigen::Index step = std::max(every, 1);
-  FrameMatrixD result((frames.rows() + step - 1) / step, frames.cols());
-  for (Eigen::Index i = 0; i < result.rows(); ++i) {
-    result.row(i) = frames.row(i * step);
-  }
-  return result;
+  return frames(Eigen::seqN(0, (frames.rows() + step - 1) / step, step), Eigen::all);
 }
 
-// Error of weights of some frames of `offsets` for the frames of `measured`.
-double error_of(const FrameMatrixD& measured, const FrameMatrixD& offsets,
-                const std::vector<Eigen::Index>& keyshapes, int channels_per_group) {
-  const Eigen::MatrixXd shapes = offsets(keyshapes, Eigen::all).transpose();
+// A mean over frames and channel groups.
+double mean_of(double sum, const FrameMatrixD& measured, const KeyshapeMeasure& measure) {
+  return sum / std::max(static_cast<double>(measured.rows()) * measure.groups, 1.0);
+}
+
+double error_of(const FrameMatrixD& measured, const KeyshapeMeasure& measure,
+                const std::vector<Eigen::Index>& keyshapes) {
+  const Eigen::MatrixXd shapes = measure.offsets(keyshapes, Eigen::all).transpose();
   const WeightSolver solver(shapes, {}, {.upper = std::numeric_limits<double>::infinity()});
-  const FrameMatrixD weights = solver.solve(measured);
-  const double groups = static_cast<double>(measured.size()) / channels_per_group;
-  return (weights * shapes.transpose() - measured).squaredNorm() / std::max(groups, 1.0);
+  const FrameMatrixD left = solver.solve(measured) * shapes.transpose() - measured;
+  return mean_of(left.squaredNorm(), measured, measure);
 }
 
 // Numbers of keyshapes to try, up to the largest: every one where these are few.
@@ -53,18 +53,25 @@ std::vector<int> counts_up_to(int largest, int steps) {
 
 } // namespace
 
-double reconstruction_error(const FrameMatrixD& offsets, const std::vector<Eigen::Index>& keyshapes,
-                            int channels_per_group) {
-  return error_of(offsets, offsets, keyshapes, channels_per_group);
+FrameMatrixD KeyshapeMeasure::measured() const {
+  return thinned(offsets, every);
 }
 
-std::vector<ErrorCurve> error_curves(const FrameMatrixD& points, const FrameMatrixD& offsets,
-                                     int channels_per_group, const KeyshapeOptions& options,
-                                     int every, int steps) {
-  const FrameMatrixD measured = thinned(offsets, every);
+double reconstruction_error(const KeyshapeMeasure& measure,
+                            const std::vector<Eigen::Index>& keyshapes) {
+  return error_of(measure.measured(), measure, keyshapes);
+}
+
+double motion_square(const KeyshapeMeasure& measure) {
+  const FrameMatrixD measured = measure.measured();
+  return mean_of(measured.squaredNorm(), measured, measure);
+}
+
+std::vector<ErrorCurve> error_curves(const FrameMatrixD& points, const KeyshapeMeasure& measure,
+                                     const KeyshapeOptions& options, int steps) {
+  const FrameMatrixD measured = measure.measured();
   const auto error = [&](const std::vector<Eigen::Index>& frames) {
-    return KeyshapeError{static_cast<int>(frames.size()),
-                         error_of(measured, offsets, frames, channels_per_group)};
+    return KeyshapeError{static_cast<int>(frames.size()), error_of(measured, measure, frames)};
   };
   KeyshapeOptions trial = options;
   std::vector<ErrorCurve> curves = {{"extrema", {}},
@@ -77,13 +84,18 @@ std::vector<ErrorCurve> error_curves(const FrameMatrixD& points, const FrameMatr
     curves[0].errors.push_back(error(frames_of(extrema, static_cast<std::size_t>(count))));
   }
   trial.method = KeyshapeMethod::clusters;
+  const FrameMatrixD few = thinned(points, measure.every);
   for (const int dimensions : {2, 3}) {
     trial.cluster_dimensions = dimensions;
     std::vector<KeyshapeError>& errors = curves[static_cast<std::size_t>(dimensions - 1)].errors;
     for (const int count : counts_up_to(options.count, steps)) {
       trial.count = count;
-      const KeyshapeSelection found = select_keyshapes(points, trial);
-      errors.push_back(error(frames_of(found, found.chosen.size())));
+      const KeyshapeSelection found = select_keyshapes(few, trial);
+      std::vector<Eigen::Index> frames = frames_of(found, found.chosen.size());
+      for (Eigen::Index& frame : frames) {
+        frame *= std::max(measure.every, 1);
+      }
+      errors.push_back(error(frames));
     }
   }
   trial.method = KeyshapeMethod::hull;

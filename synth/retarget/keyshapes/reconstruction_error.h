@@ -20,17 +20,28 @@ struct ErrorCurve {
   std::vector<KeyshapeError> errors; // count ascending
 };
 
-// The mean squared error of non-negative weights (T Eq. 3.2) of the keyshapes for each of `frames`.
-// `offsets`: #frames by #channels, from the reference pose; `keyshapes`: rows of it.
-double reconstruction_error(const FrameMatrixD& offsets, const std::vector<Eigen::Index>& keyshapes,
-                            int channels_per_group);
+// What errors are measured of.
+struct KeyshapeMeasure {
+  FrameMatrixD offsets; // #frames by #channels (part_offsets or part_offset_coordinates)
+  int groups = 1;       // channel groups of the part, which the error is a mean over
+  int every = 1;        // each so-manieth frame is measured
+
+  FrameMatrixD measured() const; // those frames
+};
+
+// The mean squared error of non-negative weights (T Eq. 3.2) of these keyshapes (rows of the
+// offsets) for each of the measured frames.
+double reconstruction_error(const KeyshapeMeasure& measure,
+                            const std::vector<Eigen::Index>& keyshapes);
+
+// The same of no keyshapes at all: the mean square of the offsets themselves.
+double motion_square(const KeyshapeMeasure& measure);
 
 // T figure 3.6: the error as the number grows to `options.count`, for extrema, clusters in 2 and 3
-// dimensions, and the hull (one number of keyshapes). `points`: #frames by #axes. Every
-// `every`-th frame is measured. At most `steps` numbers a curve.
-std::vector<ErrorCurve> error_curves(const FrameMatrixD& points, const FrameMatrixD& offsets,
-                                     int channels_per_group, const KeyshapeOptions& options,
-                                     int every, int steps);
+// dimensions, and the hull (one number of keyshapes). `points`: #frames by #axes, the frames of
+// `measure`. Clusters are looked for in the measured frames. At most `steps` numbers a curve.
+std::vector<ErrorCurve> error_curves(const FrameMatrixD& points, const KeyshapeMeasure& measure,
+                                     const KeyshapeOptions& options, int steps);
 
 // The curves as an SVG picture, and as a table between tabs (method, count, mean_square).
 std::string error_plot_svg(const std::vector<ErrorCurve>& curves, const std::string& unit);

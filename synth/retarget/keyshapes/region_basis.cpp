@@ -8,6 +8,7 @@
 #include <string>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 namespace phonomime {
 namespace {
@@ -88,6 +89,22 @@ FrameMatrixD part_offsets(const PcaModel& pca, const FrameMatrixD& frames,
                           const std::vector<int>& channels, const Eigen::VectorXd& reference) {
   const Eigen::VectorXd rest = (pca.mean - reference)(channels);
   return (frames * pca.basis(channels, Eigen::all).transpose()).rowwise() + rest.transpose();
+}
+
+FrameMatrixD part_offset_coordinates(const PcaModel& pca, const FrameMatrixD& frames,
+                                     const std::vector<int>& channels,
+                                     const Eigen::VectorXd& reference) {
+  // Each offset is a sum of the part's PCA axes and of the mean's own offset: [B d] = Q R.
+  const Eigen::Index dimensions = frames.cols();
+  Eigen::MatrixXd columns(std::ssize(channels), dimensions + 1);
+  columns.leftCols(dimensions) = pca.basis(channels, Eigen::all);
+  columns.rightCols(1) = (pca.mean - reference)(channels);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  const Eigen::Index count = std::min(columns.rows(), columns.cols());
+  const Eigen::MatrixXd r =
+      qr.matrixQR().topRows(count).template triangularView<Eigen::Upper>().toDenseMatrix();
+  return (frames * r.leftCols(dimensions).transpose()).rowwise() +
+         r.rightCols(1).transpose().row(0);
 }
 
 } // namespace phonomime

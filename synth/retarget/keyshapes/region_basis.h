@@ -27,4 +27,10 @@ FrameMatrixD part_coefficients(const PcaModel& pca, const FrameMatrixD& frames,
 FrameMatrixD part_offsets(const PcaModel& pca, const FrameMatrixD& frames,
                           const std::vector<int>& channels, const Eigen::VectorXd& reference);
 
+// The same offsets on orthonormal axes of their own, so that lengths and scalar products stay what
+// they are: #frames by at most #dimensions + 1.
+FrameMatrixD part_offset_coordinates(const PcaModel& pca, const FrameMatrixD& frames,
+                                     const std::vector<int>& channels,
+                                     const Eigen::VectorXd& reference);
+
 } // namespace phonomime

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace phonomime {
 namespace {
 
@@ -66,6 +68,13 @@ std::vector<Change> large_changes(Eigen::Index poses, const Changes& source,
 }
 
 } // namespace
+
+std::string conflict_words(const RigConflict& c) {
+  return fmt::format("{}, {}: from {} to {} and from {} to {} the source changes alike (cosine "
+                     "{:.2f}), the target contrarily ({:.2f}), most of all {}",
+                     c.expression, c.part, c.from, c.to, c.other_from, c.other_to,
+                     c.source_likeness, c.target_likeness, c.value);
+}
 
 std::vector<RigConflict> find_conflicts(const Rig& rig, const Layout& layout,
                                         const FrameMatrixD& source, const RigTargets& targets,

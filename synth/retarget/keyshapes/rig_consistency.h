@@ -21,6 +21,9 @@ struct RigConflict {
   std::string value;                // of the target, that is most at odds
 };
 
+// One line for people: the two changes, how alike and how contrary they are, and the value.
+std::string conflict_words(const RigConflict& conflict);
+
 // All pairs of changes between two poses of a set (its keyshapes and the pose at rest) whose source
 // cosine is at least 0.9 and whose target cosine is under -0.25, the most contrary first, `most` of
 // them. Changes under a tenth of the set's largest, in source or target, are passed over.

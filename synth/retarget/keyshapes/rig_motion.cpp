@@ -8,36 +8,42 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace phonomime {
 namespace {
 
+constexpr std::string_view kNeutral = "neutral";
+
 Eigen::Index expression_index(const std::vector<std::string>& expressions,
-                              const std::string& emotion) {
+                              const std::string& emotion, const std::string& where) {
   const auto found = std::ranges::find(expressions, emotion);
   if (found == expressions.end()) {
-    std::string known;
-    for (const std::string& expression : expressions) {
-      known += (known.empty() ? "" : ", ") + expression;
-    }
-    throw InputError({.what = "the rig has no keyshapes of the expression " + quoted(emotion),
-                      .expected = known,
+    throw InputError({.where = where,
+                      .what = "the rig has no keyshapes of the expression " + quoted(emotion),
+                      .expected = fmt::format("{}", fmt::join(expressions, ", ")),
                       .remedy = did_you_mean(emotion, expressions)});
   }
   return found - expressions.begin();
 }
 
-// The shares of one emotion: 1 by #expressions.
+// The shares of the emotions of a mixture: 1 by #expressions.
 Eigen::RowVectorXd shares_of(const std::vector<std::string>& expressions,
-                             const EmotionModifier& emotion) {
+                             const EmotionMixture& mixture, const std::string& where = {}) {
   Eigen::RowVectorXd shares =
       Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(expressions.size()));
-  const Eigen::Index own = expression_index(expressions, emotion.emotion);
-  shares[own] = emotion.intensity;
-  const auto neutral = std::ranges::find(expressions, "neutral");
-  if (neutral != expressions.end()) {
-    const Eigen::Index rest = neutral - expressions.begin();
-    shares[rest] = rest == own ? 1.0 : std::max(0.0, 1.0 - emotion.intensity);
+  std::vector<EmotionModifier> parts = mixture.others;
+  parts.push_back(mixture.heaviest);
+  double expressive = 0.0;
+  for (const EmotionModifier& part : parts) {
+    shares[expression_index(expressions, part.emotion, where)] = part.intensity;
+    expressive += part.emotion == kNeutral ? 0.0 : part.intensity;
+  }
+  if (const auto neutral = std::ranges::find(expressions, kNeutral); neutral != expressions.end()) {
+    shares[neutral - expressions.begin()] = std::max(0.0, 1.0 - expressive);
   }
   return shares;
 }
@@ -65,7 +71,7 @@ std::vector<std::string> rig_expressions(const Rig& rig) {
 }
 
 FrameMatrixD expression_shares(const Rig& rig, const EmotionTrack& track,
-                               const EmotionModifier& fallback, double rate_hz, Eigen::Index frames,
+                               const EmotionMixture& fallback, double rate_hz, Eigen::Index frames,
                                double glide_s) {
   const std::vector<std::string> expressions = rig_expressions(rig);
   if (expressions.size() == 1) {
@@ -75,7 +81,8 @@ FrameMatrixD expression_shares(const Rig& rig, const EmotionTrack& track,
   const Eigen::RowVectorXd rest = shares_of(expressions, fallback);
   shares.rowwise() = rest;
   for (const EmotionSpan& span : track.spans) {
-    const Eigen::RowVectorXd own = shares_of(expressions, {span.emotion, span.intensity});
+    const Eigen::RowVectorXd own =
+        shares_of(expressions, mixture_of(span), at_line(track.source, span.line));
     for (Eigen::Index t = 0; t < frames; ++t) {
       const double time_s = static_cast<double>(t) / rate_hz;
       if (time_s >= span.start_s && time_s < span.end_s) {
@@ -112,7 +119,7 @@ FrameMatrixD rig_weights(const Rig& rig, const Layout& layout, const FrameMatrix
     const std::vector<int> channels = part_channels(layout, set.part);
     const Eigen::MatrixXd shapes = source(rows, channels).transpose();
     const auto count = static_cast<Eigen::Index>(rows.size());
-    const Eigen::Index expression = expression_index(expressions, set.expression);
+    const Eigen::Index expression = expression_index(expressions, set.expression, rig.source);
     weights.middleCols(first, count) =
         shares.col(expression).asDiagonal() *
         WeightSolver(shapes, {}, options).solve(frames(Eigen::all, channels));

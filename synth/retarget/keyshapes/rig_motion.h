@@ -19,12 +19,12 @@ std::vector<std::string> keyshape_names(const Rig& rig);
 // The expressions of a rig's sets, each once, in their order.
 std::vector<std::string> rig_expressions(const Rig& rig);
 
-// The alphas of T5.1 from an emotion track: #frames by #expressions. A span's emotion gets its
-// intensity, the expression "neutral" what is left of 1; `fallback` fills time without a span; one
-// glides into the next (filter_weights of `glide_s`). Of a single expression all are 1. Throws
+// The alphas of T5.1 from an emotion track: #frames by #expressions. Each emotion of a span gets
+// its intensity, the expression "neutral" what is left of 1; `fallback` fills time without a span;
+// one glides into the next (filter_weights of `glide_s`). Of a single expression all are 1. Throws
 // InputError for an emotion that the rig has no set of, with those that it has.
 FrameMatrixD expression_shares(const Rig& rig, const EmotionTrack& track,
-                               const EmotionModifier& fallback, double rate_hz, Eigen::Index frames,
+                               const EmotionMixture& fallback, double rate_hz, Eigen::Index frames,
                                double glide_s = 0.05);
 
 // Weights of all keyshapes for each frame: each set is solved apart on the channels of its part

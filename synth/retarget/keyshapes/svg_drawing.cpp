@@ -77,6 +77,18 @@ std::string formatted(double value) {
   return view == "-0" ? "0" : std::string(view);
 }
 
+// For a script's text between single quotes; lines in an attribute end in no other way than blanks.
+std::string in_quotes(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\'' || c == '\\') {
+      result += '\\';
+    }
+    result += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return result;
+}
+
 } // namespace
 
 SvgDrawing::SvgDrawing(std::string text, std::string where)
@@ -256,7 +268,7 @@ std::string SvgDrawing::animated(const FrameMatrixD& frames, double rate_hz) con
     }
     std::string values;
     for (const auto& frame : frames.rowwise()) {
-      values += (values.empty() ? "'" : ",'") + value(slot, frame) + "'";
+      values += (values.empty() ? "'" : ",'") + in_quotes(value(slot, frame)) + "'";
     }
     script += fmt::format("[{},'{}',[{}]],\n", slot.element, slot.attribute, values);
   }

@@ -113,7 +113,7 @@ TEST(Rig, ExpressionsAreBlendedByTheEmotionTrack) {
   const Rig rig{.source = "k.csv",
                 .sets = {made_set("neutral", "face", 0, 2), made_set("anger", "face", 2, 2)}};
   const EmotionTrack track = parse_emotion_track("1 2 anger 0.4\n", "track");
-  const FrameMatrixD shares = expression_shares(rig, track, {"neutral", 1.0}, 50.0, 200, 0.02);
+  const FrameMatrixD shares = expression_shares(rig, track, {{"neutral", 1.0}}, 50.0, 200, 0.02);
   EXPECT_NEAR(shares(20, 0), 1.0, 1e-12);
   EXPECT_NEAR(shares(75, 0), 0.6, 1e-12);
   EXPECT_NEAR(shares(75, 1), 0.4, 1e-12);
@@ -127,10 +127,18 @@ TEST(Rig, ExpressionsAreBlendedByTheEmotionTrack) {
   EXPECT_LT((blended.row(75).head(2) - 0.6 * alone.row(75)).cwiseAbs().maxCoeff(), 1e-12);
   test::expect_error(
       [&] {
-        expression_shares(rig, {}, {"angr", 1.0}, 50.0, 10);
+        expression_shares(rig, {}, {{"angr", 1.0}}, 50.0, 10);
       },
       R"(no keyshapes of the expression "angr" (expected neutral, anger). Did you mean "anger"?)");
-  EXPECT_EQ(expression_shares(calm, track, {"neutral", 1.0}, 50.0, 10), FrameMatrixD::Ones(10, 1));
+  EXPECT_EQ(expression_shares(calm, track, {{"neutral", 1.0}}, 50.0, 10),
+            FrameMatrixD::Ones(10, 1));
+  Rig mixed = rig;
+  mixed.sets.push_back(made_set("happiness", "face", 0, 2));
+  const EmotionMixture mixture = parse_emotion_mixture("anger:0.5+happiness:0.3", "--emotion");
+  EXPECT_LT(
+      (expression_shares(mixed, {}, mixture, 50.0, 10).row(5) - Eigen::RowVector3d(0.2, 0.5, 0.3))
+          .norm(),
+      1e-12);
 }
 
 TEST(Rig, ContraryChangesArePointedOut) {
