@@ -3,6 +3,7 @@
 #include "synth/retarget/mapping/equation_solving.h"
 #include "synth/retarget/mapping/shape_fit.h"
 #include "tests/support/shared_data.h"
+#include "tests/synth/retarget/mapping/known_keyshapes.h"
 #include "tests/synth/retarget/mapping/known_weights.h"
 
 #include <map>
@@ -91,6 +92,9 @@ TEST_F(KnownWeights, ComeBackFromTheMarkersOfTheSameFace) {
   judge("cross 4", cross_mapping_of(own, recording.train, train, 100, {}), recording);
   judge("cross 12", cross_mapping_of(own, recording.train, train, 100, {.dimensions = 12}),
         recording);
+  judge("keyshapes 20", KnownKeyshapes(base, own, recording.train, train, {"face"}, 20), recording);
+  judge("keyshapes 20 + 20",
+        KnownKeyshapes(base, own, recording.train, train, {"lower", "upper"}, 20), recording);
   EXPECT_NEAR(base.vertex_rms(truth), 4.2, 0.2) << "what errors are to be held against";
   EXPECT_LT(errors["fit clean"].vertex_mm, 0.16);
   EXPECT_LT(errors["fit noisy"].vertex_mm, 0.23);
@@ -115,6 +119,12 @@ TEST_F(KnownWeights, ComeBackFromASpeakerOfOtherProportions) {
   judge("cross 4", cross_mapping_of(own, recording.train, train, 100, {}), recording);
   judge("cross 12", cross_mapping_of(own, recording.train, train, 100, {.dimensions = 12}),
         recording);
+  MarkerShapes warped = own; // the speaker at rest
+  warped.rest = warp.apply(own.rest.transpose()).row(0).transpose();
+  judge("keyshapes 20", KnownKeyshapes(base, warped, recording.train, train, {"face"}, 20),
+        recording);
+  judge("keyshapes 20 + 20",
+        KnownKeyshapes(base, warped, recording.train, train, {"lower", "upper"}, 20), recording);
   for (const char* part : {"clean", "noisy", "gaps"}) {
     const std::string name = part;
     EXPECT_LT(errors["cross 4 " + name].vertex_mm, 0.6 * errors["equations " + name].vertex_mm);
