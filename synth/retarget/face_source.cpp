@@ -71,20 +71,24 @@ std::vector<std::filesystem::path> face_files(const std::filesystem::path& path)
   return files;
 }
 
-MarkerMap read_markers(const std::filesystem::path& path, const Layout& layout, int skin_vertices) {
+std::optional<MarkerMap> find_markers(const std::filesystem::path& path, const Layout& layout,
+                                      int skin_vertices) {
   const std::vector<std::filesystem::path> files = face_files(path);
-  if (files.size() > 1) {
-    return parse_marker_map(read_file(files.back()), files.back().string(), layout, skin_vertices);
-  }
-  auto named = marker_map_from_names(layout, skin_vertices);
-  if (!named) {
+  return files.size() > 1 ? parse_marker_map(read_file(files.back()), files.back().string(), layout,
+                                             skin_vertices)
+                          : marker_map_from_names(layout, skin_vertices);
+}
+
+MarkerMap read_markers(const std::filesystem::path& path, const Layout& layout, int skin_vertices) {
+  std::optional<MarkerMap> markers = find_markers(path, layout, skin_vertices);
+  if (!markers) {
     throw InputError(
-        {.where = files.front().string(),
+        {.where = face_files(path).front().string(),
          .what = "nothing says where the markers sit on this face",
          .expected = "a table " + std::string(kMarkerTable) + " beside it",
          .remedy = "Write one line `marker<TAB>vertex` for each marker, vertices counted from 0."});
   }
-  return std::move(*named);
+  return std::move(*markers);
 }
 
 FaceSource read_face(const std::filesystem::path& path, const Layout& layout) {

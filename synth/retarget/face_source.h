@@ -6,6 +6,7 @@
 #include "synth/retarget/triangle_mesh.h"
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace phonomime {
@@ -22,7 +23,12 @@ struct FaceSource {
 // what was found) and IoError.
 FaceSource read_face(const std::filesystem::path& path, const Layout& layout);
 
-// Where a layout's markers sit on that face, whose skin has so many vertices. Throws as read_face.
+// Where a layout's markers sit on that face, whose skin has so many vertices: nothing where neither
+// a table nor their names say it. Throws InputError, as parse_marker_map, and IoError.
+std::optional<MarkerMap> find_markers(const std::filesystem::path& path, const Layout& layout,
+                                      int skin_vertices);
+
+// The same, of which there has to be one. Throws as read_face.
 MarkerMap read_markers(const std::filesystem::path& path, const Layout& layout, int skin_vertices);
 
 // The files that read_face reads for a path: the mesh, then its marker table where there is one.

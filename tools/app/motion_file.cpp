@@ -59,7 +59,12 @@ void tell_gaps(const NormalMotion& motion, double recorded_hz, MotionFile& file)
 
 MotionFile read_motion_file(const std::filesystem::path& path, const MotionTable& table,
                             const MotionFileOptions& options, double rate_hz) {
-  const MotionClip clip = read_motion(path);
+  return motion_in_layout(read_motion(path), path, table, options, rate_hz);
+}
+
+MotionFile motion_in_layout(const MotionClip& clip, const std::filesystem::path& path,
+                            const MotionTable& table, const MotionFileOptions& options,
+                            double rate_hz) {
   const Layout layout = layout_of_file(clip, table, options);
   const LayoutMotion recorded = to_layout(clip, layout, path.string());
   const std::string whose = "the file";

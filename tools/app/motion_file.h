@@ -41,6 +41,11 @@ struct MotionFile {
 MotionFile read_motion_file(const std::filesystem::path& path, const MotionTable& table,
                             const MotionFileOptions& options = {}, double rate_hz = 0.0);
 
+// The same of a file that has been read: `path` is what it is called.
+MotionFile motion_in_layout(const MotionClip& clip, const std::filesystem::path& path,
+                            const MotionTable& table, const MotionFileOptions& options = {},
+                            double rate_hz = 0.0);
+
 // Its frames in the PCA of `table` (#frames by #dimensions), and how far the PCA's frames are from
 // them (root mean square over all channels, mm or weight).
 struct ProjectedMotion {

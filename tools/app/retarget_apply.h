@@ -2,8 +2,10 @@
 #pragma once
 
 #include "db/types/progress.h"
+#include "tools/app/rig_weights.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +13,11 @@ namespace phonomime {
 
 // How motion becomes weights of a face's shapes.
 enum class RetargetMethod {
-  weights,  // it is weights: to the shapes of their names
-  fit,      // of markers: shapes known on the markers' vertices, by bounded least squares
-  cross,    // X4-X6 by pairs of frames and weights
-  equations // of markers: X7
+  weights,   // it is weights: to the shapes of their names
+  fit,       // of markers: shapes known on the markers' vertices, by bounded least squares
+  cross,     // X4-X6 by pairs of frames and weights
+  equations, // of markers: X7
+  keyshapes  // T Eq. 3.2 by a rig that says what the face does for each keyshape
 };
 
 struct RetargetApplyOptions {
@@ -23,15 +26,17 @@ struct RetargetApplyOptions {
   std::string speaker;            // may be empty where the database holds only one
   std::filesystem::path layout;   // of the motion, where its unit or axes are not the database's
   std::filesystem::path face;
-  std::string method;          // empty: weights for weights, else fit
-  std::filesystem::path pairs; // of cross
-  std::filesystem::path audio; // for .html
+  std::string method;            // empty: weights for weights, else fit
+  std::filesystem::path pairs;   // of cross
+  std::optional<int> dimensions; // of cross: of the PCA; 0 = by cross-validation
+  RigChoice rig;                 // of keyshapes
+  WeightChoices weights;         // of fit and keyshapes
+  std::filesystem::path audio;   // for .html
   std::vector<std::filesystem::path> outputs;
   double fps = 0.0;      // 0: the motion's own, 1 to 1000
   double filter_s = 0.0; // width of the weights' filter (weight_filter.h), 0 to 1
   bool head = true;
   bool skip_missing = false;
-  int threads = 0; // 0: as many as there are
 };
 
 // What was done.
@@ -50,7 +55,7 @@ struct RetargetReport {
 // Throws UsageError, InputError, IoError and Interrupted.
 RetargetReport apply_to_face(const RetargetApplyOptions& options, const Progress& progress);
 
-// "weights", "fit", "cross", "equations".
+// "weights", "fit", "cross", "equations", "keyshapes".
 const char* retarget_method_name(RetargetMethod method);
 
 } // namespace phonomime

@@ -56,7 +56,10 @@ RetargetedWeights retarget_by_cross_mapping(const RetargetSource& source, const 
                       .remedy = "Name the table with --pairs; `phonomime retarget references` "
                                 "proposes one."});
   }
-  const CrossMapping mapping(source.table.pca, read_pairs(source));
+  const ReferencePairs pairs = read_pairs(source);
+  const CrossMapping mapping(
+      source.table.pca, pairs,
+      {.dimensions = source.options.dimensions.value_or(kDefaultCrossDimensions)});
   const FrameMatrixD mapped = mapping.weights(source.motion.channels);
   RetargetedWeights result{.weights = FrameMatrixD::Zero(
                                mapped.rows(), static_cast<Eigen::Index>(source.face.names.size())),
@@ -67,9 +70,11 @@ RetargetedWeights retarget_by_cross_mapping(const RetargetSource& source, const 
     result.weights.col(at - source.face.names.begin()) = mapped.col(static_cast<Eigen::Index>(i));
   }
   result.notes.push_back(
-      fmt::format("{} dimensions; a pair's weights from the others: {:.3f} off (root mean square)",
-                  mapping.dimensions(), mapping.weight_rms_left_out()));
-  result.figures_json = nlohmann::json{{"dimensions", mapping.dimensions()},
+      fmt::format("{} pairs, {} dimensions; a pair's weights from the others: {:.3f} off (root "
+                  "mean square)",
+                  pairs.weights.rows(), mapping.dimensions(), mapping.weight_rms_left_out()));
+  result.figures_json = nlohmann::json{{"pairs", pairs.weights.rows()},
+                                       {"dimensions", mapping.dimensions()},
                                        {"sigma", mapping.network().sigma()},
                                        {"weight_rms_left_out", mapping.weight_rms_left_out()}}
                             .dump();

@@ -35,25 +35,19 @@ void list_shapes(const ShapeFace& face, FaceOffer& offer) {
 
 void list_markers(const RetargetListOptions& options, int skin_vertices, FaceOffer& offer) {
   const std::vector<std::filesystem::path> files = face_files(options.face);
-  const std::string text = files.size() > 1 ? read_file(files.back()) : std::string();
   if (files.size() > 1) {
     offer.marker_table = files.back().string();
   }
-  if (options.database.empty()) {
-    if (files.size() > 1) {
-      offer.placed = parse_marker_table(text, offer.marker_table, skin_vertices).size();
+  if (!options.database.empty()) {
+    const Layout layout = MotionDatabase::open(options.database, OpenMode::read_only).info().layout;
+    if (std::optional<MarkerMap> map = find_markers(options.face, layout, skin_vertices)) {
+      offer.placed = layout.groups.size() - map->missing.size();
+      offer.missing = std::move(map->missing);
+      offer.unknown = std::move(map->unknown);
     }
-    return;
-  }
-  const MotionDatabase database = MotionDatabase::open(options.database, OpenMode::read_only);
-  const Layout layout = database.info().layout;
-  std::optional<MarkerMap> map =
-      files.size() > 1 ? parse_marker_map(text, offer.marker_table, layout, skin_vertices)
-                       : marker_map_from_names(layout, skin_vertices);
-  if (map) {
-    offer.placed = layout.groups.size() - map->missing.size();
-    offer.missing = std::move(map->missing);
-    offer.unknown = std::move(map->unknown);
+  } else if (files.size() > 1) {
+    offer.placed =
+        parse_marker_table(read_file(files.back()), offer.marker_table, skin_vertices).size();
   }
 }
 

@@ -4,9 +4,8 @@
 #include "db/store/motion_database.h"
 #include "db/types/file_io.h"
 #include "synth/retarget/face_scene.h"
-#include "synth/retarget/face_source.h"
 #include "synth/retarget/mapping/pair_table.h"
-#include "synth/retarget/mapping/shape_fit.h"
+#include "tools/app/fitted_frames.h"
 
 #include <fmt/format.h>
 
@@ -45,17 +44,6 @@ FrameMatrixD channels_of(const std::vector<ProposedFrame>& references, const Mot
   return channels;
 }
 
-// Frames are apart in time: nothing is smooth from one to the next.
-FrameMatrixD fitted_weights(const ShapeFace& face, const std::filesystem::path& path,
-                            const MotionTable& table, const FrameMatrixD& channels) {
-  const MarkerMap markers = read_markers(path, table.layout, face.neutral.skin_vertex_count());
-  ShapeFitOptions options;
-  options.solve.smoothness = 0.0;
-  const ShapeFit fit(shapes_at_markers(face, markers.vertices, table.reference_pose), table.layout,
-                     options);
-  return fit.weights(channels);
-}
-
 } // namespace
 
 ReferencesReport propose_pairs(const RetargetReferencesOptions& options) {
@@ -67,10 +55,9 @@ ReferencesReport propose_pairs(const RetargetReferencesOptions& options) {
   PairTable pairs = pairs_of(references, table);
   pairs.shapes = face.names;
   const bool markers = table.layout.kind == LayoutKind::markers;
-  pairs.weights = markers
-                      ? fitted_weights(face, options.face, table, channels_of(references, table))
-                      : FrameMatrixD::Zero(static_cast<Eigen::Index>(references.size()),
-                                           static_cast<Eigen::Index>(face.names.size()));
+  pairs.weights = markers ? fitted_frames(face, options.face, table, channels_of(references, table))
+                          : FrameMatrixD::Zero(static_cast<Eigen::Index>(references.size()),
+                                               static_cast<Eigen::Index>(face.names.size()));
   ReferencesReport report;
   report.frames = references.size();
   for (const ProposedFrame& reference : references) {

@@ -3,11 +3,12 @@
 
 #include "db/types/motion_table.h"
 #include "db/types/progress.h"
-#include "synth/retarget/marker_map.h"
+#include "synth/retarget/mapping/marker_shapes.h"
 #include "synth/retarget/shape_face.h"
 #include "tools/app/motion_file.h"
 #include "tools/app/retarget_apply.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,7 @@ struct RetargetSource {
   const MotionTable& table; // of the database
   const MotionFile& motion; // in the table's layout, the head taken off
   const ShapeFace& face;
-  // Which vertex of the skin each marker of the layout sits on; empty where the layout is of
-  // weights or the method asks for none.
-  const MarkerMap& markers;
+  const std::optional<MarkerShapes>& shapes; // under the markers, for `fit` and `equations`
 };
 
 // What it gives.
@@ -35,5 +34,6 @@ struct RetargetedWeights {
 RetargetedWeights retarget_by_fit(const RetargetSource& source, const Progress& progress);
 RetargetedWeights retarget_by_equations(const RetargetSource& source, const Progress& progress);
 RetargetedWeights retarget_by_cross_mapping(const RetargetSource& source, const Progress& progress);
+RetargetedWeights retarget_by_keyshapes(const RetargetSource& source, const Progress& progress);
 
 } // namespace phonomime

@@ -150,12 +150,13 @@ std::vector<std::string> verb_names(const CLI::App& app) {
   return names;
 }
 
-// The call's verb, and the verb's own where it has some.
-void check_verbs(const CLI::App& app, std::span<const char* const> call) {
-  check_verb(call, verb_names(app), app.get_name());
+// The call's verb, and the verb's own where it has some. `name`: what the program is called up to
+// there.
+void check_verbs(const CLI::App& app, std::span<const char* const> call, const std::string& name) {
+  check_verb(call, verb_names(app), name);
   for (const CLI::App* verb : app.get_subcommands({})) {
     if (!call.empty() && call.front() == verb->get_name() && !verb->get_subcommands({}).empty()) {
-      check_verb(call.subspan(1), verb_names(*verb), app.get_name() + " " + verb->get_name());
+      check_verbs(*verb, call.subspan(1), name + " " + verb->get_name());
     }
   }
 }
@@ -215,7 +216,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
       call[2] == std::string_view("--list")) {
     call[2] = "list";
   }
-  check_verbs(app, std::span(call).subspan(call.empty() ? 0 : 1));
+  check_verbs(app, std::span(call).subspan(call.empty() ? 0 : 1), app.get_name());
   try {
     app.parse(argc, call.data());
   } catch (const CLI::CallForHelp&) {

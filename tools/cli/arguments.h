@@ -75,9 +75,9 @@ struct Arguments {
                CurateArguments, JournalArguments, SynthArguments, StreamArguments,
                MapBuildArguments, MapShowArguments, MapImageArguments, MapPickArguments,
                MapQualityArguments, RecommendArguments, RetargetListArguments,
-               RetargetApplyArguments, RetargetReferencesArguments, StyleTrainArguments,
-               StyleShowArguments, StyleApplyArguments, BatchArguments, EvaluateArguments,
-               TuneArguments, ExplainArguments>
+               RetargetApplyArguments, RetargetReferencesArguments, ChooseKeyshapesArguments,
+               ApplyRigArguments, StyleTrainArguments, StyleShowArguments, StyleApplyArguments,
+               BatchArguments, EvaluateArguments, TuneArguments, ExplainArguments>
       verb;
 };
 

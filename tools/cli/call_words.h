@@ -29,6 +29,9 @@ struct RetargetWords {
   RetargetListArguments list;
   RetargetApplyArguments apply;
   RetargetReferencesArguments references;
+  ChooseKeyshapesArguments choose;
+  ApplyRigArguments rig;
+  std::string keyshape_method = "extrema";
 };
 
 // Of `phonomime style ...`.
@@ -110,6 +113,14 @@ void take_map_words(const CLI::App& map, CallWords& words);
 void add_retarget(CLI::App& app, CallWords& words);
 // Which of the verbs of `retarget` it is.
 void take_retarget_words(const CLI::App& retarget, CallWords& words);
+
+// The verbs of `retarget keyshapes`, and which of them it is.
+void add_keyshapes(CLI::App& retarget, RetargetWords& words);
+void take_keyshapes_words(const CLI::App& keyshapes, CallWords& words);
+
+// How weights are solved for, and in which expression a rig moves.
+void add_weight_choices(CLI::App* verb, WeightChoices& weights, double& filter_s);
+void add_expression(CLI::App* verb, RigChoice& choice);
 
 void add_style(CLI::App& app, CallWords& words);
 // Which of the verbs of `style` it is.

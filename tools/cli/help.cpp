@@ -12,37 +12,40 @@ namespace {
 constexpr std::size_t kWidth = 80;
 constexpr std::size_t kMeaningColumn = 26;
 
-std::string format_entry(const HelpEntry& entry) {
-  std::string text = "  " + entry.term;
-  std::size_t column = text.size();
-  const auto start_line = [&] {
-    text += "\n" + std::string(kMeaningColumn, ' ');
-    column = kMeaningColumn;
-  };
-  if (column + 2 > kMeaningColumn) {
-    start_line();
-  } else {
-    text.append(kMeaningColumn - column, ' ');
-    column = kMeaningColumn;
-  }
-  for (const std::string_view word : split_words(entry.meaning)) {
-    const bool first = column == kMeaningColumn;
-    if (!first && column + 1 + word.size() > kWidth) {
-      start_line();
-      text += word;
-    } else {
-      text += fmt::format("{}{}", first ? "" : " ", word);
-      column += first ? 0 : 1;
+// Words in lines that begin at a column, where the first already is.
+std::string in_lines(std::string_view words, std::size_t first_column) {
+  std::string text;
+  std::size_t column = first_column;
+  for (const std::string_view word : split_words(words)) {
+    if (column > first_column && column + 1 + word.size() > kWidth) {
+      text += "\n" + std::string(first_column, ' ');
+      column = first_column;
+    } else if (column > first_column) {
+      text += ' ';
+      ++column;
     }
+    text += word;
     column += word.size();
   }
-  return text + "\n";
+  return text;
+}
+
+std::string format_entry(const HelpEntry& entry) {
+  std::string text = "  " + entry.term;
+  if (text.size() + 2 > kMeaningColumn) {
+    text += "\n" + std::string(kMeaningColumn, ' ');
+  } else {
+    text.resize(kMeaningColumn, ' ');
+  }
+  return text + in_lines(entry.meaning, kMeaningColumn) + "\n";
 }
 
 } // namespace
 
 std::string format_help(const HelpPage& page) {
-  std::string text = fmt::format("{}\n\nUsage: {}\n", page.title, page.usage);
+  constexpr std::string_view kUsage = "Usage: ";
+  std::string text =
+      fmt::format("{}\n\n{}{}\n", page.title, kUsage, in_lines(page.usage, kUsage.size()));
   for (const HelpSection& section : page.sections) {
     if (!section.entries.empty()) {
       text += fmt::format("\n{}:\n", section.heading);

@@ -7,6 +7,18 @@
 
 namespace phonomime {
 
+namespace {
+
+void print_report(const CommonArguments& common, const nlohmann::ordered_json& json,
+                  const std::string& text) {
+  clear_progress();
+  if (common.json || !common.quiet) {
+    print(common.json ? json.dump(1) + "\n" : text);
+  }
+}
+
+} // namespace
+
 void run_verb(const RetargetListArguments& arguments, const CommonArguments& common,
               const Progress&) {
   const FaceOffer offer = list_face(arguments.options);
@@ -16,18 +28,25 @@ void run_verb(const RetargetListArguments& arguments, const CommonArguments& com
 void run_verb(const RetargetApplyArguments& arguments, const CommonArguments& common,
               const Progress& progress) {
   const RetargetReport report = apply_to_face(arguments.options, progress);
-  clear_progress();
-  if (common.json || !common.quiet) {
-    print(common.json ? retarget_json(report).dump(1) + "\n" : retarget_text(report));
-  }
+  print_report(common, retarget_json(report), retarget_text(report));
 }
 
 void run_verb(const RetargetReferencesArguments& arguments, const CommonArguments& common,
               const Progress&) {
   const ReferencesReport report = propose_pairs(arguments.options);
-  if (common.json || !common.quiet) {
-    print(common.json ? references_json(report).dump(1) + "\n" : references_text(report));
-  }
+  print_report(common, references_json(report), references_text(report));
+}
+
+void run_verb(const ChooseKeyshapesArguments& arguments, const CommonArguments& common,
+              const Progress& progress) {
+  const ChooseKeyshapesReport report = write_keyshapes(arguments.options, progress);
+  print_report(common, keyshapes_json(report), keyshapes_text(report, arguments.options.output));
+}
+
+void run_verb(const ApplyRigArguments& arguments, const CommonArguments& common,
+              const Progress& progress) {
+  const ApplyRigReport report = apply_rig(arguments.options, progress);
+  print_report(common, rig_json(report), rig_text(report));
 }
 
 } // namespace phonomime

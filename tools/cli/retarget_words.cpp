@@ -48,15 +48,18 @@ void add_retarget_apply(CLI::App* retarget, RetargetWords& words) {
                    "The layout.json of the motion, where its unit or axes are not the database's")
       ->type_name("FILE");
   verb->add_option("--method", options.method,
-                   "How: weights (by their names), fit, cross or equations (default: "
+                   "How: weights (by their names), fit, cross, equations or keyshapes (default: "
                    "weights for weights, else fit)")
       ->type_name("METHOD");
   verb->add_option("--pairs", options.pairs, "Frames with their weights, for cross")
       ->type_name("TABLE");
-  verb->add_option("--filter", options.filter_s,
-                   "Smooth the weights in time by a bell this wide in seconds, 0 (none) to 1")
-      ->type_name("SECONDS")
-      ->capture_default_str();
+  verb->add_option("--dimensions", options.dimensions,
+                   "PCA dimensions that cross looks at; 0: by cross-validation (default: 4)")
+      ->type_name("N");
+  verb->add_option("--rig", options.rig.rig, "What the face does for each keyshape, for keyshapes")
+      ->type_name("RIG");
+  add_expression(verb, options.rig);
+  add_weight_choices(verb, options.weights, options.filter_s);
   verb->add_option("--fps", options.fps, "Frames a second (default: as the motion has)")
       ->type_name("FPS");
   verb->add_option("--audio", options.audio, "Sound for the HTML page")->type_name("FILE");
@@ -64,9 +67,6 @@ void add_retarget_apply(CLI::App* retarget, RetargetWords& words) {
       "--no-head", [&options] { options.head = false; }, "The head rests");
   verb->add_flag("--skip-missing", options.skip_missing,
                  "Leave out weights of shapes that the face does not have");
-  verb->add_option("--threads", options.threads,
-                   "Threads to work with (default: one for each core)")
-      ->type_name("N");
 }
 
 void add_retarget_references(CLI::App* retarget, RetargetWords& words) {
@@ -93,6 +93,33 @@ void add_retarget_references(CLI::App* retarget, RetargetWords& words) {
 
 } // namespace
 
+void add_weight_choices(CLI::App* verb, WeightChoices& weights, double& filter_s) {
+  verb->add_option("--ridge", weights.ridge,
+                   "Keeps weights small, for fit (default: 0.0002) and keyshapes (default: 0)")
+      ->type_name("R");
+  verb->add_option("--sparsity", weights.sparsity,
+                   "Pulls each weight to 0 by about this much, for fit (default: 0.0001) and "
+                   "keyshapes (default: 0)")
+      ->type_name("W");
+  verb->add_option("--smoothness", weights.smoothness,
+                   "Frames over which weights are smoothed as they are solved for, for fit "
+                   "(default: 0.1) and keyshapes (default: 0)")
+      ->type_name("FRAMES");
+  verb->add_option("--filter", filter_s,
+                   "Smooth the weights afterwards by a bell this wide in seconds, 0 (none) to 1")
+      ->type_name("SECONDS")
+      ->capture_default_str();
+}
+
+void add_expression(CLI::App* verb, RigChoice& choice) {
+  verb->add_option("--emotion", choice.emotion,
+                   "Expression of a rig that has several, as NAME, NAME:INTENSITY or a mixture "
+                   "NAME:I+NAME:I (default: neutral, else its first)")
+      ->type_name("EMOTION");
+  verb->add_option("--emotions", choice.emotions, "Emotion track that blends a rig's expressions")
+      ->type_name("TRACK");
+}
+
 void add_retarget(CLI::App& app, CallWords& words) {
   CLI::App* retarget = app.add_subcommand("retarget", "Motion onto a face with shapes of its own");
   retarget->require_subcommand(1);
@@ -102,6 +129,7 @@ void add_retarget(CLI::App& app, CallWords& words) {
   add_retarget_list(retarget, words.retarget);
   add_retarget_apply(retarget, words.retarget);
   add_retarget_references(retarget, words.retarget);
+  add_keyshapes(*retarget, words.retarget);
 }
 
 void take_retarget_words(const CLI::App& retarget, CallWords& words) {
@@ -110,6 +138,8 @@ void take_retarget_words(const CLI::App& retarget, CallWords& words) {
     words.arguments.verb = words.retarget.list;
   } else if (verb == "references") {
     words.arguments.verb = words.retarget.references;
+  } else if (verb == "keyshapes") {
+    take_keyshapes_words(*retarget.get_subcommands().front(), words);
   } else {
     words.arguments.verb = words.retarget.apply;
   }

@@ -48,6 +48,10 @@ void run_verb(const RetargetReferencesArguments& arguments, const CommonArgument
               const Progress& progress);
 void run_verb(const RetargetListArguments& arguments, const CommonArguments& common,
               const Progress& progress);
+void run_verb(const ChooseKeyshapesArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
+void run_verb(const ApplyRigArguments& arguments, const CommonArguments& common,
+              const Progress& progress);
 void run_verb(const StyleTrainArguments& arguments, const CommonArguments& common,
               const Progress& progress);
 void run_verb(const StyleShowArguments& arguments, const CommonArguments& common,

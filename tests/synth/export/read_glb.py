@@ -32,11 +32,26 @@ class Glb:
     def numbers(self, index):
         """All numbers of an accessor, one after the other."""
         accessor = self.json["accessors"][index]
-        view = self.json["bufferViews"][accessor["bufferView"]]
+        width = WIDTHS[accessor["type"]]
+        count = accessor["count"] * width
+        if "bufferView" in accessor:
+            values = self.packed(accessor, accessor["componentType"], count)
+        else:
+            values = array.array(FORMATS[accessor["componentType"]], [0] * count)
+        if "sparse" in accessor:
+            sparse = accessor["sparse"]
+            places = self.packed(sparse["indices"], sparse["indices"]["componentType"], sparse["count"])
+            others = self.packed(sparse["values"], accessor["componentType"], sparse["count"] * width)
+            for i, place in enumerate(places):
+                values[width * place : width * place + width] = others[width * i : width * i + width]
+        return values
+
+    def packed(self, where, component, count):
+        """So many numbers from a buffer view on."""
+        view = self.json["bufferViews"][where["bufferView"]]
         assert "byteStride" not in view, "packed arrays are enough here"
-        first = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        values = array.array(FORMATS[accessor["componentType"]])
-        count = accessor["count"] * WIDTHS[accessor["type"]]
+        first = view.get("byteOffset", 0) + where.get("byteOffset", 0)
+        values = array.array(FORMATS[component])
         values.frombytes(self.binary[first : first + count * values.itemsize])
         if sys.byteorder == "big":
             values.byteswap()

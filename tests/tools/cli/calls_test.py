@@ -11,7 +11,8 @@ import phonomime_cli as cli
 import tiny_corpus
 
 VERBS = ("import", "info", "nodes", "synth", "batch", "evaluate", "tune", "map build", "map show", "map image", "map pick",
-         "map quality", "recommend", "retarget list", "retarget apply", "retarget references",
+         "map quality", "recommend", "retarget list", "retarget apply", "retarget references", "retarget keyshapes select",
+         "retarget keyshapes apply",
          "style train", "style show", "style apply", "suspects", "prune", "restore", "undo", "journal", "explain")
 
 
@@ -49,6 +50,8 @@ class CallsTest(cli.CliTest):
             "map quality": ["map", "quality", self.database],
             "recommend": ["recommend", self.database, self.transcript, "--row", 2],
             "retarget list": ["retarget", "list", self.face],
+            "retarget keyshapes select": ["retarget", "keyshapes", "select", self.database, "-o", self.folder / "keys",
+                                          "-n", 3],
             "style train": ["style", "train", self.database],
             "style show": ["style", "show", self.database],
             "style apply": ["style", "apply", self.database, self.corpus / "motion" / "neutral_u000.c3d",
@@ -69,7 +72,8 @@ class CallsTest(cli.CliTest):
                 for line in example.strip().splitlines():
                     words = shlex.split(line)
                     self.assertEqual(words[0], "phonomime")
-                    named = words[1:3] if words[1] in ("map", "retarget", "style") else words[1:2]
+                    named = words[1:4] if words[1:3] == ["retarget", "keyshapes"] else (
+                        words[1:3] if words[1] in ("map", "retarget", "style") else words[1:2])
                     for option in (word for word in words if re.match("-[^0-9]", word)):
                         self.assertRegex(cli.run_well(*named, "--help"), rf"(?m)^  .*{re.escape(option)}\b")
         for verb in ("import", "synth", "batch", "evaluate", "map build", "recommend", "style train"):
@@ -77,7 +81,7 @@ class CallsTest(cli.CliTest):
 
     def test_help_is_for_people(self):
         """Lines that fit a terminal, no inner workings, and a meaning for each option."""
-        for verb in ((), ("map",), ("retarget",), ("style",), *(verb.split() for verb in VERBS)):
+        for verb in ((), ("map",), ("retarget",), ("retarget", "keyshapes"), ("style",), *(verb.split() for verb in VERBS)):
             with self.subTest(" ".join(verb)):
                 text = cli.run_well(*verb, "--help")
                 self.assertRegex(text, rf"\nUsage: phonomime {' '.join(verb)}")
@@ -95,7 +99,7 @@ class CallsTest(cli.CliTest):
 
     def test_quiet_prints_nothing_on_success(self):
         for verb in ("import", "synth", "batch", "evaluate", "map build", "map image", "style train",
-                     "style apply"):
+                     "style apply", "retarget keyshapes select"):
             with self.subTest(verb):
                 result = cli.run(*self.calls()[verb], "--quiet")
                 self.assertEqual((result.returncode, result.stdout, result.stderr), (cli.DONE, "", ""))
