@@ -104,6 +104,12 @@ TEST_F(KnownWeights, ComeBackFromTheMarkersOfTheSameFace) {
   EXPECT_GT(errors["equations noisy"].vertex_mm, errors["fit noisy"].vertex_mm);
   EXPECT_LT(errors["cross 12 noisy"].weight, 0.07);
   EXPECT_LT(errors["cross 12 gaps"].vertex_mm, 1.0);
+  for (const char* part : {"clean", "noisy", "gaps"}) {
+    const std::string name = part;
+    EXPECT_LT(errors["keyshapes 20 " + name].vertex_mm, 0.55);
+    EXPECT_LT(errors["keyshapes 20 + 20 " + name].vertex_mm, 0.41);
+    EXPECT_LT(errors["keyshapes 20 + 20 " + name].weight, 0.08);
+  }
 }
 
 TEST_F(KnownWeights, ComeBackFromASpeakerOfOtherProportions) {
@@ -130,6 +136,7 @@ TEST_F(KnownWeights, ComeBackFromASpeakerOfOtherProportions) {
     EXPECT_LT(errors["cross 4 " + name].vertex_mm, 0.6 * errors["equations " + name].vertex_mm);
     EXPECT_LT(errors["cross 4 " + name].weight, 0.5 * errors["equations " + name].weight);
     EXPECT_LT(errors["cross 12 " + name].vertex_mm, errors["fit " + name].vertex_mm);
+    EXPECT_LT(errors["keyshapes 20 + 20 " + name].vertex_mm, 0.6 * errors["fit " + name].vertex_mm);
   }
 }
 
