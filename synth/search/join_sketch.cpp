@@ -2,13 +2,13 @@
 #include "synth/search/join_sketch.h"
 
 #include "db/types/vector_dispatch.h"
+#include "db/types/vector_lanes.h"
 #include "synth/search/group_weights.h"
 #include "synth/search/linear_features.h"
 #include "synth/search/motion_clusters.h"
+#include "synth/search/nodes_by_key.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -65,20 +65,27 @@ constexpr std::size_t kWidth = JoinSketch::kFeatures;
 // Along which feature nodes[0, count) differ most.
 PHONOMIME_DISPATCHED
 std::size_t widest_feature(const NodeIndex* nodes, std::size_t count, const float* features) {
-  float low[kWidth];
-  float high[kWidth];
-  std::fill_n(low, kWidth, std::numeric_limits<float>::max());
-  std::fill_n(high, kWidth, std::numeric_limits<float>::lowest());
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* own = features + static_cast<std::size_t>(nodes[i]) * kWidth;
-    for (std::size_t f = 0; f < kWidth; ++f) {
-      low[f] = own[f] < low[f] ? own[f] : low[f];
-      high[f] = own[f] > high[f] ? own[f] : high[f];
+  constexpr std::size_t kParts = kWidth / kFloatLanes;
+  FloatLanes low[kParts], high[kParts];
+  for (std::size_t part = 0; part < kParts; ++part) {
+    load(low[part], features + static_cast<std::size_t>(nodes[0]) * kWidth + part * kFloatLanes);
+    high[part] = low[part];
+  }
+  for (std::size_t i = 1; i < count; ++i) {
+    const float* features_of = features + static_cast<std::size_t>(nodes[i]) * kWidth;
+    for (std::size_t part = 0; part < kParts; ++part) {
+      FloatLanes own;
+      load(own, features_of + part * kFloatLanes);
+      low[part] = own < low[part] ? own : low[part];
+      high[part] = own > high[part] ? own : high[part];
     }
   }
+  const auto width = [&](std::size_t f) {
+    return high[f / kFloatLanes][f % kFloatLanes] - low[f / kFloatLanes][f % kFloatLanes];
+  };
   std::size_t widest = 0;
   for (std::size_t f = 1; f < kWidth; ++f) {
-    if (high[f] - low[f] > high[widest] - low[widest]) {
+    if (width(f) > width(widest)) {
       widest = f;
     }
   }
@@ -115,30 +122,23 @@ std::vector<NodeIndex> order_ends(const MotionTable& table, NodeEnd which,
                                   const std::vector<float>& features) {
   const std::size_t visemes = table.visemes.size() + 1;
   const std::size_t emotions = table.emotions.size();
-  std::vector<std::size_t> class_of(table.nodes.size());
-  std::vector<std::size_t> begins(visemes * table.phonemes.size() * emotions + 1, 0);
+  std::vector<std::size_t> keys;
+  keys.reserve(table.nodes.size());
   for (NodeIndex node = 0; node < table.node_count(); ++node) {
     const MotionNode& info = table.nodes[static_cast<std::size_t>(node)];
     const auto viseme = static_cast<std::size_t>(join_viseme(table, which, node) + 1);
-    const std::size_t own = (viseme + visemes * static_cast<std::size_t>(info.phoneme)) * emotions +
-                            static_cast<std::size_t>(info.emotion);
-    class_of[static_cast<std::size_t>(node)] = own;
-    ++begins[own + 1];
+    keys.push_back((viseme + visemes * static_cast<std::size_t>(info.phoneme)) * emotions +
+                   static_cast<std::size_t>(info.emotion));
   }
-  std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  std::vector<NodeIndex> order(table.nodes.size());
-  std::vector<std::size_t> next(begins.begin(), begins.end() - 1);
-  for (NodeIndex node = 0; node < table.node_count(); ++node) {
-    order[next[class_of[static_cast<std::size_t>(node)]]++] = node;
-  }
-  std::vector<std::pair<float, NodeIndex>> values(order.size());
-  const std::size_t classes = next.size();
+  NodesByKey classes = nodes_by_key(keys);
+  std::vector<std::pair<float, NodeIndex>> values(classes.nodes.size());
 #pragma omp parallel for schedule(dynamic)
-  for (std::size_t i = 0; i < classes; ++i) {
-    order_by_halves(order.data() + begins[i], begins[i + 1] - begins[i], features.data(),
-                    values.data() + begins[i]);
+  for (std::size_t i = 0; i < classes.count(); ++i) {
+    const std::size_t begin = classes.begins[i];
+    order_by_halves(classes.nodes.data() + begin, classes.begins[i + 1] - begin, features.data(),
+                    values.data() + begin);
   }
-  return order;
+  return std::move(classes.nodes);
 }
 
 std::vector<std::int32_t> places(const std::vector<NodeIndex>& order) {

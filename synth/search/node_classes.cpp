@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/node_classes.h"
 
-#include <algorithm>
-#include <numeric>
-#include <tuple>
+#include "synth/search/nodes_by_key.h"
+
+#include <utility>
 
 namespace phonomime {
 
 NodeClasses::NodeClasses(const MotionTable& table)
-    : nodes_(table.nodes.size()), class_of_(table.nodes.size()), place_of_(table.nodes.size()) {
-  const auto key = [&](NodeIndex node) {
-    const MotionNode& info = table.nodes[static_cast<std::size_t>(node)];
-    return std::tuple(info.phoneme, info.viseme, info.emotion);
-  };
-  std::iota(nodes_.begin(), nodes_.end(), 0);
-  std::ranges::stable_sort(nodes_, {}, key);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (i == 0 || key(nodes_[i]) != key(nodes_[i - 1])) {
-      begins_.push_back(i);
-    }
-    const auto node = static_cast<std::size_t>(nodes_[i]);
-    class_of_[node] = static_cast<std::int32_t>(begins_.size()) - 1;
-    place_of_[node] = static_cast<std::int32_t>(i - begins_.back());
+    : class_of_(table.nodes.size()), place_of_(table.nodes.size()) {
+  std::vector<std::size_t> keys;
+  keys.reserve(table.nodes.size());
+  for (const MotionNode& node : table.nodes) {
+    keys.push_back((static_cast<std::size_t>(node.phoneme) * table.visemes.size() +
+                    static_cast<std::size_t>(node.viseme)) *
+                       table.emotions.size() +
+                   static_cast<std::size_t>(node.emotion));
   }
-  begins_.push_back(nodes_.size());
+  NodesByKey sorted = nodes_by_key(keys);
+  nodes_ = std::move(sorted.nodes);
+  begins_ = std::move(sorted.begins);
+  for (std::size_t c = 0; c + 1 < begins_.size(); ++c) {
+    for (std::size_t i = begins_[c]; i < begins_[c + 1]; ++i) {
+      const auto node = static_cast<std::size_t>(nodes_[i]);
+      class_of_[node] = static_cast<std::int32_t>(c);
+      place_of_[node] = static_cast<std::int32_t>(i - begins_[c]);
+    }
+  }
 }
 
 } // namespace phonomime
