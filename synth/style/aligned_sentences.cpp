@@ -42,7 +42,7 @@ std::vector<std::string> chosen_styles(const MotionTable& table, const TrainingO
   }
   if (std::ranges::find(styles, options.reference) == styles.end()) {
     throw InputError({.where = kWhere,
-                      .what = "the style that gives the timing is none of the styles",
+                      .what = "the neutral style is none of the styles",
                       .expected = list_of(styles),
                       .got = options.reference});
   }

@@ -2,7 +2,7 @@
 #include "synth/style/choose_dimensions.h"
 
 #include "db/types/errors.h"
-#include "db/types/parallel_for.h"
+#include "db/types/parallel_progress.h"
 #include "synth/style/bilinear_model.h"
 #include "synth/style/content_solver.h"
 
@@ -112,8 +112,8 @@ ChoiceOptions with_defaults(std::span<const StackSummary> parts, const ChoiceOpt
 
 } // namespace
 
-ChosenDimensions choose_dimensions(std::span<const StackSummary> parts,
-                                   const ChoiceOptions& given) {
+ChosenDimensions choose_dimensions(std::span<const StackSummary> parts, const ChoiceOptions& given,
+                                   const Progress& progress) {
   if (parts.size() < 2) {
     throw InputError({.where = "training data of styles",
                       .what = "a cross-validation needs parts to leave out",
@@ -124,10 +124,11 @@ ChosenDimensions choose_dimensions(std::span<const StackSummary> parts,
   const Eigen::Index rows =
       options.row_count > 0 ? options.row_count : parts.front().vector_size - options.first_row;
   std::vector<PartErrors> errors(parts.size());
-  parallel_for(static_cast<std::ptrdiff_t>(parts.size()), options.threads, [&](std::ptrdiff_t i) {
-    const auto part = static_cast<std::size_t>(i);
-    errors[part] = leave_out(parts, part, options, rows);
-  });
+  parallel_for(static_cast<std::ptrdiff_t>(parts.size()), options.threads, progress,
+               "choosing dimensions", [&](std::ptrdiff_t i) {
+                 const auto part = static_cast<std::size_t>(i);
+                 errors[part] = leave_out(parts, part, options, rows);
+               });
   double numbers = 0.0;
   for (const StackSummary& part : parts) {
     const auto styles = static_cast<double>(part.style_count());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "db/types/progress.h"
 #include "synth/style/style_stack.h"
 
 #include <span>
@@ -37,8 +38,8 @@ struct ChosenDimensions {
 // J and the ridge of the asymmetric model by leaving out one part at a time: the rest is fitted,
 // the part is translated from each style to each other. `parts`: at least two, sentences of one
 // part together in none of the others. Throws InputError (fewer than two parts, sizes that the data
-// do not have).
+// do not have) and Interrupted.
 ChosenDimensions choose_dimensions(std::span<const StackSummary> parts,
-                                   const ChoiceOptions& options);
+                                   const ChoiceOptions& options, const Progress& progress = {});
 
 } // namespace phonomime

@@ -2,7 +2,7 @@
 #include "synth/style/choose_unknown.h"
 
 #include "db/types/errors.h"
-#include "db/types/parallel_for.h"
+#include "db/types/parallel_progress.h"
 #include "synth/style/bilinear_model.h"
 #include "synth/style/infer_style.h"
 #include "synth/style/singular_vectors.h"
@@ -100,7 +100,7 @@ UnknownChoiceOptions with_defaults(const std::vector<StackSummary>& training,
 
 ChosenUnknown choose_unknown(std::span<const StyleStack> parts,
                              std::span<const StackSummary> summaries,
-                             const UnknownChoiceOptions& given) {
+                             const UnknownChoiceOptions& given, const Progress& progress) {
   if (parts.size() < 2 || parts.size() != summaries.size()) {
     throw InputError({.where = "training data of styles",
                       .what = "a cross-validation needs parts to leave out",
@@ -120,7 +120,7 @@ ChosenUnknown choose_unknown(std::span<const StyleStack> parts,
   }
   // One sum a choice and part.
   std::vector<Sums> sums(tried.size() * parts.size());
-  parallel_for(static_cast<std::ptrdiff_t>(sums.size()), options.threads, [&](std::ptrdiff_t i) {
+  const auto try_one = [&](std::ptrdiff_t i) {
     const auto index = static_cast<std::size_t>(i);
     const UnknownChoice& choice = tried[index / parts.size()];
     const std::size_t part = index % parts.size();
@@ -129,7 +129,9 @@ ChosenUnknown choose_unknown(std::span<const StyleStack> parts,
                                                        .most_iterations = kFitRounds,
                                                        .tolerance = kTolerance}),
                         parts[part], options);
-  });
+  };
+  parallel_for(static_cast<std::ptrdiff_t>(sums.size()), options.threads, progress,
+               "finding emotions", try_one);
   for (std::size_t c = 0; c < tried.size(); ++c) {
     double squares = 0.0;
     for (std::size_t part = 0; part < parts.size(); ++part) {

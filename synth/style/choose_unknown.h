@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "db/types/progress.h"
 #include "synth/style/style_stack.h"
 
 #include <cstdint>
@@ -38,9 +39,10 @@ struct ChosenUnknown {
 
 // I and J of the symmetric model by leaving out one part at a time: the rest is fitted, the style
 // of the part's windows inferred, each shown in every style. `parts` and `summaries`: the same
-// parts, at least two. Throws InputError (fewer than two parts, sizes that the data do not have).
+// parts, at least two. Throws InputError (fewer than two parts, sizes that the data do not have)
+// and Interrupted.
 ChosenUnknown choose_unknown(std::span<const StyleStack> parts,
                              std::span<const StackSummary> summaries,
-                             const UnknownChoiceOptions& options);
+                             const UnknownChoiceOptions& options, const Progress& progress = {});
 
 } // namespace phonomime

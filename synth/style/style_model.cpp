@@ -2,7 +2,7 @@
 #include "synth/style/style_model.h"
 
 #include "db/types/errors.h"
-#include "db/types/parallel_for.h"
+#include "db/types/parallel_progress.h"
 #include "synth/style/mixture.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void check_range(const char* what, bool inside, const char* expected, const std:
 }
 
 ChosenDimensions choose(std::span<const StackSummary> parts, const FrameVectors& vectors,
-                        const StyleOptions& options) {
+                        const StyleOptions& options, const Progress& progress) {
   ChoiceOptions tried{.first_row = vectors.middle_row(),
                       .row_count = vectors.dimension_count(),
                       .threads = options.threads};
@@ -30,12 +30,12 @@ ChosenDimensions choose(std::span<const StackSummary> parts, const FrameVectors&
   if (options.ridge) {
     tried.ridges = {*options.ridge};
   }
-  return choose_dimensions(parts, tried);
+  return choose_dimensions(parts, tried, progress);
 }
 
 ChosenUnknown choose_unknown_of(std::span<const StyleStack> parts,
                                 std::span<const StackSummary> summaries,
-                                const StyleOptions& options) {
+                                const StyleOptions& options, const Progress& progress) {
   UnknownChoiceOptions tried{.threads = options.threads};
   if (options.style_size) {
     tried.style_sizes = {*options.style_size};
@@ -43,7 +43,7 @@ ChosenUnknown choose_unknown_of(std::span<const StyleStack> parts,
   if (options.unknown_content_size) {
     tried.content_sizes = {*options.unknown_content_size};
   }
-  return choose_unknown(parts, summaries, tried);
+  return choose_unknown(parts, summaries, tried, progress);
 }
 
 void warn_of_range(const StyleModel& model, const Eigen::MatrixXd& wanted,
@@ -78,7 +78,8 @@ void StyleOptions::validate() const {
               "2 or more", std::to_string(training.parts));
 }
 
-TrainedStyle train_style(const MotionTable& table, const StyleOptions& options) {
+TrainedStyle train_style(const MotionTable& table, const StyleOptions& options,
+                         const Progress& progress) {
   options.validate();
   const FrameVectors vectors(table.pca, options.bundle, options.vectors);
   StyleTraining training = gather_styles(table, vectors, options.training);
@@ -87,10 +88,11 @@ TrainedStyle train_style(const MotionTable& table, const StyleOptions& options) 
                        .nodes_left_out = training.nodes_left_out,
                        .not_aligned = std::move(training.not_aligned)};
   std::vector<StackSummary> parts(training.parts.size());
-  parallel_for(static_cast<std::ptrdiff_t>(parts.size()), options.threads, [&](std::ptrdiff_t i) {
-    const auto part = static_cast<std::size_t>(i);
-    parts[part] = summarise(training.parts[part]);
-  });
+  parallel_for(static_cast<std::ptrdiff_t>(parts.size()), options.threads, progress,
+               "aligning sentences", [&](std::ptrdiff_t i) {
+                 const auto part = static_cast<std::size_t>(i);
+                 parts[part] = summarise(training.parts[part]);
+               });
   std::vector<const StackSummary*> all;
   for (const StackSummary& part : parts) {
     all.push_back(&part);
@@ -104,7 +106,7 @@ TrainedStyle train_style(const MotionTable& table, const StyleOptions& options) 
   model.bundle = options.bundle;
   model.ridge = options.ridge.value_or(0.0);
   if (!options.content_size || !options.ridge) {
-    trained.chosen = choose(parts, vectors, options);
+    trained.chosen = choose(parts, vectors, options, progress);
     content_size = trained.chosen->best.content_size;
     model.ridge = trained.chosen->best.ridge;
   }
@@ -112,16 +114,18 @@ TrainedStyle train_style(const MotionTable& table, const StyleOptions& options) 
   SymmetricOptions unknown{.style_size = options.style_size.value_or(0),
                            .content_size = options.unknown_content_size.value_or(0)};
   if (!options.style_size || !options.unknown_content_size) {
-    trained.chosen_unknown = choose_unknown_of(training.parts, parts, options);
+    trained.chosen_unknown = choose_unknown_of(training.parts, parts, options, progress);
     unknown.style_size = trained.chosen_unknown->best.style_size;
     unknown.content_size = trained.chosen_unknown->best.content_size;
   }
+  progress.update("fitting", 0, 1);
   model.unknown = fit_symmetric(whole, unknown);
   if (const auto aperture = CoefficientAperture::of(table.layout, table.pca)) {
     model.contacts = recorded_contacts(table, *aperture);
   }
   model.valid = valid_ranges(table, Restyler(model.known, vectors, model.ridge), model.known.styles,
                              model.neutral);
+  progress.update("fitting", 1, 1);
   return trained;
 }
 

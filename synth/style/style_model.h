@@ -2,6 +2,7 @@
 #pragma once
 
 #include "db/types/motion_table.h"
+#include "db/types/progress.h"
 #include "synth/style/bilinear_model.h"
 #include "synth/style/choose_dimensions.h"
 #include "synth/style/choose_unknown.h"
@@ -53,8 +54,9 @@ struct TrainedStyle {
   std::vector<NotAligned> not_aligned;
 };
 
-// Throws UsageError and InputError (gather_styles, summarise, the fits).
-TrainedStyle train_style(const MotionTable& table, const StyleOptions& options);
+// Throws UsageError, InputError (gather_styles, summarise, the fits) and Interrupted.
+TrainedStyle train_style(const MotionTable& table, const StyleOptions& options,
+                         const Progress& progress = {});
 
 // Motion that is to show another style.
 struct StyleRequest {

@@ -334,9 +334,7 @@ StyleReport train_style_models(const StyleTrainOptions& options, const Progress&
   // Read first: what is opened for writing is made where it is not there.
   const MotionTable table = MotionDatabase::open(options.database, OpenMode::read_only)
                                 .load_motion_table(options.speaker);
-  progress.update("style model", 0, 1);
-  TrainedStyle trained = train_style(table, options.style);
-  progress.update("style model", 1, 1);
+  TrainedStyle trained = train_style(table, options.style, progress);
   MotionDatabase database = MotionDatabase::open(options.database, OpenMode::read_write);
   database.save_style_model(to_stored(table, trained));
   return report_of(table, StyleState::fresh, std::move(trained));

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/style/style_training.h"
 
+#include "db/types/progress.h"
 #include "synth/style/align_phonemes.h"
+#include "synth/style/style_model.h"
 #include "tests/support/expect_error.h"
 #include "tests/synth/style/made_table.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -168,7 +173,7 @@ TEST(StyleTraining, RefusesWhatIsNotThere) {
       },
       "no recording of the emotion boredom (expected anger, neutral, joy)");
   expect_error([&] { gather_styles(made.table, vectors, {}); },
-               "gives the timing is none of the styles (expected anger, got neutral)");
+               "the neutral style is none of the styles (expected anger, got neutral)");
   expect_error([&] { gather_styles(made.table, vectors, {.reference = "anger"}); },
                "several styles (expected at least 2, got anger)");
   expect_error(
@@ -176,6 +181,37 @@ TEST(StyleTraining, RefusesWhatIsNotThere) {
         gather_styles(made.table, vectors, {.styles = {"anger", "neutral"}});
       },
       "no speech that was recorded in every style");
+}
+
+TEST(TrainStyle, TellsItsStagesAndStopsInEach) {
+  MadeTable made;
+  for (int i = 0; i < 8; ++i) {
+    const std::string id = "s" + std::to_string(i);
+    made.say(id, "neutral", {{"a", 9 + i}, {"b", 12}, {"c", 8}});
+    made.say(id, "joy", {{"a", 11}, {"b", 9 + i}, {"c", 7}});
+  }
+  made.table.layout.groups = {{"chin", {Region::jaw}}, {"lip", {Region::lips}}};
+  made.table.pca.variance = Eigen::Vector2d(100.0, 1.0);
+  const StyleOptions options{.training = {.parts = 4}, .bundle = 1, .threads = 2};
+  std::vector<std::string> stages;
+  Progress progress;
+  progress.report = [&](std::string_view stage, std::int64_t, std::int64_t) {
+    if (stages.empty() || stages.back() != stage) {
+      stages.emplace_back(stage);
+    }
+  };
+  train_style(made.table, options, progress);
+  ASSERT_EQ(stages, (std::vector<std::string>{"aligning sentences", "choosing dimensions",
+                                              "finding emotions", "fitting"}));
+  for (const std::string& last : stages) {
+    std::atomic<bool> stop = false;
+    std::string told;
+    const Progress stopping{.report = [&](std::string_view stage, std::int64_t,
+                                          std::int64_t) { stop = (told = stage) == last; },
+                            .stop = &stop};
+    EXPECT_THROW(train_style(made.table, options, stopping), Interrupted);
+    EXPECT_EQ(told, last);
+  }
 }
 
 } // namespace phonomime::test
