@@ -12,35 +12,60 @@ namespace {
 constexpr double kLeastRatio = 0.1; // of any phoneme, however far an emotion is taken
 
 struct Durations { // frames
-  double reference = 0.0, emotion = 0.0;
+  double reference = 0.0, emotion = 0.0, count = 0.0;
+
+  void add(double of_reference, double of_emotion) {
+    reference += of_reference;
+    emotion += of_emotion;
+    count += 1.0;
+  }
+  // As if kTempoPrior more of the mean duration had the overall ratio.
+  double drawn_to(double overall) const {
+    const double prior = count > 0.0 ? kTempoPrior * reference / count : 0.0;
+    return reference > 0.0 ? (emotion + prior * overall) / (reference + prior) : overall;
+  }
 };
+
+// Frames of the silence between two nodes; 0 where there is none, or something is said there.
+double pause_between(const MotionNode& before, const MotionNode& after) {
+  const bool silent = after.order == before.order + 2 && after.previous_phoneme == 0;
+  return silent ? static_cast<double>(after.first_frame - before.first_frame - before.frame_count)
+                : 0.0;
+}
 
 EmotionTempo tempo_of(const MotionTable& table, const AlignedSentences& aligned,
                       std::size_t style) {
-  Durations all;
-  double phonemes = 0.0;
+  Durations all, pauses;
   std::map<std::string, Durations> by_viseme;
   for (const AlignedSentence& sentence : aligned.sentences) {
+    const Reading* last = nullptr;
     for (const Reading& nodes : sentence.nodes) {
       const auto viseme = static_cast<std::size_t>(nodes.front()->viseme);
       for (Durations* sum : {&all, &by_viseme[table.visemes[viseme]]}) {
-        sum->reference += nodes.front()->frame_count;
-        sum->emotion += nodes[style]->frame_count;
+        sum->add(nodes.front()->frame_count, nodes[style]->frame_count);
       }
-      phonemes += 1.0;
+      if (last != nullptr) {
+        const double reference = pause_between(*last->front(), *nodes.front());
+        const double emotion = pause_between(*(*last)[style], *nodes[style]);
+        if (reference > 0.0 && emotion > 0.0) {
+          pauses.add(reference, emotion);
+        }
+      }
+      last = &nodes;
     }
   }
   EmotionTempo tempo{.overall = all.emotion / all.reference};
-  const double prior = kTempoPrior * all.reference / phonemes;
   for (const auto& [viseme, sum] : by_viseme) {
-    tempo.of_viseme[viseme] = (sum.emotion + prior * tempo.overall) / (sum.reference + prior);
+    tempo.of_viseme[viseme] = sum.drawn_to(tempo.overall);
   }
+  tempo.pause = pauses.drawn_to(tempo.overall);
   return tempo;
 }
 
-double ratio_of(const TimedPhoneme& row, const EmotionModifier& emotion, const TempoModel& tempo) {
+// By how much more of its duration a row lasts with this much of an emotion.
+double change_by(const TimedPhoneme& row, const EmotionModifier& emotion, const TempoModel& tempo) {
   if (emotion.emotion == tempo.neutral) {
-    return 1.0;
+    return 0.0;
   }
   const auto found = tempo.emotions.find(emotion.emotion);
   if (found == tempo.emotions.end()) {
@@ -53,10 +78,23 @@ double ratio_of(const TimedPhoneme& row, const EmotionModifier& emotion, const T
                       .expected = known,
                       .got = emotion.emotion});
   }
-  const auto of_viseme = found->second.of_viseme.find(row.phoneme.viseme);
-  const double ratio =
-      of_viseme != found->second.of_viseme.end() ? of_viseme->second : found->second.overall;
-  return std::max(kLeastRatio, 1.0 + emotion.intensity * (ratio - 1.0));
+  const EmotionTempo& own = found->second;
+  double ratio = own.overall;
+  if (row.is_silence()) {
+    ratio = own.pause;
+  } else if (const auto of_viseme = own.of_viseme.find(row.phoneme.viseme);
+             of_viseme != own.of_viseme.end()) {
+    ratio = of_viseme->second;
+  }
+  return emotion.intensity * (ratio - 1.0);
+}
+
+double ratio_of(const TimedPhoneme& row, const EmotionMixture& mixture, const TempoModel& tempo) {
+  double ratio = 1.0 + change_by(row, mixture.heaviest, tempo);
+  for (const EmotionModifier& part : mixture.others) {
+    ratio += change_by(row, part, tempo);
+  }
+  return std::max(kLeastRatio, ratio);
 }
 
 } // namespace
@@ -71,7 +109,7 @@ TempoModel learn_tempo(const MotionTable& table, const TrainingOptions& options)
 }
 
 std::vector<TimedPhoneme> retime(std::span<const TimedPhoneme> rows,
-                                 std::span<const EmotionModifier> emotions,
+                                 std::span<const EmotionMixture> emotions,
                                  const TempoModel& tempo) {
   if (rows.size() != emotions.size()) {
     throw InternalError({.where = "tempo",
@@ -79,10 +117,14 @@ std::vector<TimedPhoneme> retime(std::span<const TimedPhoneme> rows,
                          .expected = std::to_string(rows.size()),
                          .got = std::to_string(emotions.size())});
   }
+  const auto said = [](const TimedPhoneme& row) { return !row.is_silence(); };
+  const auto first = std::ranges::find_if(rows, said) - rows.begin();
+  const auto end = rows.rend() - std::ranges::find_if(rows.rbegin(), rows.rend(), said);
   std::vector<TimedPhoneme> retimed;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     TimedPhoneme row = rows[i];
-    const double ratio = row.is_silence() ? 1.0 : ratio_of(row, emotions[i], tempo);
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    const double ratio = at >= first && at < end ? ratio_of(row, emotions[i], tempo) : 1.0;
     const double duration_s = ratio * (row.end_s - row.start_s);
     row.start_s = i == 0 ? row.start_s : retimed.back().end_s + (row.start_s - rows[i - 1].end_s);
     row.end_s = row.start_s + duration_s;

@@ -4,6 +4,7 @@
 #include "db/types/motion_table.h"
 #include "synth/pipeline/synthesize.h"
 #include "tools/app/synth.h"
+#include "tools/app/synth_inputs.h"
 
 #include <span>
 #include <string>
@@ -11,10 +12,12 @@
 
 namespace phonomime {
 
-// A transcript that no sound fixes, at the tempo that its emotions have in the recordings; the
-// times of constraints move along. Where every phoneme is neutral, nothing is learned or moved.
-// `notes` gets a line. Throws what learn_tempo and retime throw.
-void retime_input(const MotionTable& table, SynthesisInput& input, std::vector<std::string>& notes);
+// A transcript that no sound fixes, at the tempo that its emotions have in the recordings: of each
+// row by what is asked for at its middle. The times of constraints and of the emotions move along.
+// Where every phoneme is neutral, nothing is learned or moved; an emotion that the speaker never
+// recorded has no tempo. `notes` gets lines. Throws what learn_tempo throws.
+void retime_input(const MotionTable& table, SynthesisInput& input, AskedEmotions& asked,
+                  std::vector<std::string>& notes);
 
 // Has the retimed transcript written too, beside the first output: hello.csv, hello.retimed.lab.
 // Nothing where the options do not retime, name no output, or name a .lab themselves.

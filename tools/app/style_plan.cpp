@@ -62,12 +62,6 @@ bool changes(const SynthesisInput& input) {
   return false;
 }
 
-// Whether some node of the speaker shows an emotion: its name may be another speaker's.
-bool is_recorded(const MotionTable& table, const std::string& emotion) {
-  const std::optional<std::int32_t> index = table.find_emotion(emotion);
-  return index && std::ranges::find(table.nodes, *index, &MotionNode::emotion) != table.nodes.end();
-}
-
 // The stored model, where a request needs one for these emotions, or there is one that can lend a
 // glide.
 const StyleInUse* model_for(const std::vector<std::string>& emotions, const Request* needs,
@@ -89,6 +83,11 @@ const StyleInUse* model_for(const std::vector<std::string>& emotions, const Requ
 }
 
 } // namespace
+
+bool is_recorded(const MotionTable& table, const std::string& emotion) {
+  const std::optional<std::int32_t> index = table.find_emotion(emotion);
+  return index && std::ranges::find(table.nodes, *index, &MotionNode::emotion) != table.nodes.end();
+}
 
 bool needs_style(const EmotionMixture& asked, const MotionTable& table) {
   return !is_plain(asked) || !table.find_emotion(asked.heaviest.emotion);

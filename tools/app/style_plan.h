@@ -10,6 +10,9 @@
 
 namespace phonomime {
 
+// Whether some node of the speaker shows an emotion: its name may be another speaker's.
+bool is_recorded(const MotionTable& table, const std::string& emotion);
+
 // Whether an emotion is asked for that no node can show as it is: another intensity than 1, a
 // mixture, or one that `table` does not have.
 bool needs_style(const EmotionMixture& asked, const MotionTable& table);

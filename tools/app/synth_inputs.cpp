@@ -9,7 +9,6 @@
 #include "db/types/text.h"
 #include "synth/pipeline/transcript_steps.h"
 #include "synth/search/cost_weights.h"
-#include "synth/style/tempo.h"
 #include "tools/app/retime.h"
 #include "tools/app/synth_outputs.h"
 
@@ -154,12 +153,7 @@ SynthesisInput read_synthesis_input(const SynthOptions& options, const MotionTab
   input.emotions = assign_emotions(emotions.track, input.transcript, emotions.fallback.heaviest);
   input.constraints = read_constraints(options);
   if (options.retime) {
-    const std::vector<TimedPhoneme> before = input.transcript;
-    retime_input(table, input, notes);
-    for (EmotionSpan& span : emotions.track.spans) {
-      span.start_s = retimed_at(before, input.transcript, span.start_s);
-      span.end_s = retimed_at(before, input.transcript, span.end_s);
-    }
+    retime_input(table, input, emotions, notes);
   }
   input.weights = read_weights(options, default_weights);
   input.blend = options.blend.value_or(kUsualBlend);

@@ -5,6 +5,7 @@
 #include "tests/synth/style/made_speech.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/QR>
@@ -27,7 +28,8 @@ struct Spoken {
 };
 
 // A table in which every node of a phoneme moves on the same line: coefficient 0 is 10 times the
-// phoneme's index plus the relative time, coefficient 1 is the emotion's index.
+// phoneme's index plus the relative time, coefficient 1 is the emotion's index. "pau" has frames
+// and no node.
 class MadeTable {
 public:
   MadeTable() {
@@ -41,9 +43,12 @@ public:
   void say(const std::string& id, const std::string& emotion, const std::vector<Spoken>& spoken) {
     const auto emotion_index = *table.find_emotion(emotion);
     table.sentences.push_back({"x", emotion, id, ""});
+    std::int32_t order = 0, previous = 0;
     for (const Spoken& part : spoken) {
       MotionNode node;
       node.phoneme = *table.find_phoneme(part.phoneme);
+      node.order = order++;
+      node.previous_phoneme = std::exchange(previous, node.phoneme);
       node.viseme = node.phoneme;
       node.emotion = emotion_index;
       node.sentence = static_cast<std::int32_t>(table.sentences.size()) - 1;
@@ -57,7 +62,9 @@ public:
             10.0F * static_cast<float>(node.phoneme) + relative;
         table.coefficients(node.first_frame + i, 1) = static_cast<float>(emotion_index);
       }
-      table.nodes.push_back(node);
+      if (node.phoneme != 0) {
+        table.nodes.push_back(node);
+      }
     }
   }
 

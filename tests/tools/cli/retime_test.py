@@ -5,7 +5,8 @@ import shutil
 import phonomime_cli as cli
 import tiny_corpus
 
-SLOW = 1.25  # sadness, against neutral
+TEMPOS = {"sadness": 1.25, "anger": 0.8}  # against neutral
+SLOW = TEMPOS["sadness"]
 
 
 def durations(rows):
@@ -16,11 +17,11 @@ class RetimeTest(cli.CliTest):
     @classmethod
     def setUpClass(cls):
         folder = cli.scratch_folder(cls.addClassCleanup)
-        corpus = tiny_corpus.Corpus(folder / "ann", sentences=20, emotions=("neutral", "sadness"))
+        corpus = tiny_corpus.Corpus(folder / "ann", sentences=20, emotions=("neutral", *TEMPOS))
         for i, sentence in enumerate(corpus.sentences):
-            if sentence.emotion == "sadness":
-                rows = [(SLOW * end, label) for end, label in sentence.rows]
-                corpus.sentences[i] = tiny_corpus.Sentence(sentence.id, rows, emotion="sadness", seed=sentence.seed)
+            if tempo := TEMPOS.get(sentence.emotion):
+                rows = [(tempo * end, label) for end, label in sentence.rows]
+                corpus.sentences[i] = tiny_corpus.Sentence(sentence.id, rows, emotion=sentence.emotion, seed=sentence.seed)
         cls.made = folder / "ann.db"
         cli.run_well("import", corpus.write(), "--db", cls.made)
 
@@ -44,6 +45,46 @@ class RetimeTest(cli.CliTest):
         for i, (was, now) in enumerate(zip(before, after)):
             with self.subTest(i):
                 self.assertAlmostEqual(now / was, 1.0 if i in (0, 5) else SLOW, delta=0.08)
+
+    def test_pauses_between_phonemes_follow(self):
+        cli.write_transcript(self.transcript, ["b", "aa", "pau", "m", "iy"])
+        before, after = durations(cli.read_lab(self.transcript)), durations(self.retimed("--emotion", "sadness"))
+        for i, (was, now) in enumerate(zip(before, after)):
+            with self.subTest(i):
+                self.assertAlmostEqual(now / was, 1.0 if i in (0, 6) else SLOW, delta=0.08)
+
+    def test_with_intensities_mixtures_and_changes_in_mid_sentence(self):
+        cli.run_well("style", "train", self.database, "--content", 4, "--ridge", 1, "--styles", 2, "--unknown-content", 3)
+        before = durations(cli.read_lab(self.transcript))
+        track = self.folder / "track"
+        calls = [(["--emotion", asked], 4 * [asked]) for asked in ("sadness:0.5", "sadness:1.5", "sadness:0.6+anger:0.3")]
+        for first, second in (("sadness:0.5", "anger"), ("sadness:0.6+anger:0.3", "neutral"), ("sadness", "anger:1.5")):
+            track.write_text(f"0 0.5 {first}\n0.5 9 {second}\n")
+            calls.append((["--emotions", shutil.copy(track, self.folder / f"track{len(calls)}")], [first, first, second, second]))
+        track.write_text("0.3 0.5 anger\n")
+        calls.append((["--emotions", track, "--emotion", "sadness:0.5"], ["anger", "anger", "sadness:0.5", "sadness:0.5"]))
+        for call, asked in calls:
+            with self.subTest(asked):
+                after = durations(self.retimed(*call))
+                path = cli.run_json(*self.synth("--retime", *call))["path"]
+                for i, mixture in enumerate(asked, start=1):
+                    parts = [(*part.split(":"), "1")[:2] for part in mixture.split("+")]
+                    ratio = 1 + sum(float(share) * (TEMPOS.get(name, 1) - 1) for name, share in parts)
+                    self.assertAlmostEqual(after[i] / before[i], ratio, delta=0.1)
+                    # What is asked for moves along.
+                    self.assertEqual(path[i].get("asked", path[i]["emotion"]), mixture)
+
+    def test_each_emotion_by_the_sentences_that_it_shares_with_neutral(self):
+        """Where no sentence was said in all of them."""
+        corpus = tiny_corpus.Corpus(self.folder / "eve", name="eve", sentences=8, first=30, emotions=("neutral", *TEMPOS))
+        corpus.sentences = [sentence for i, sentence in enumerate(corpus.sentences)
+                            if sentence.emotion == "neutral" or (sentence.emotion == "sadness") == (int(sentence.id[1:]) % 2 == 0)]
+        for sentence in corpus.sentences:
+            sentence.speaker = "eve"
+        cli.run_well("import", corpus.write(), "--db", self.database)
+        track = self.folder / "track"
+        track.write_text("0 0.5 sadness\n0.5 9 anger\n")
+        cli.run_well(*self.synth("--retime", "--speaker", "eve", "--emotions", track, "-o", self.folder / "eve.csv"))
 
     def test_the_motion_has_the_new_times(self):
         rows = self.retimed("--emotion", "sadness", "-o", self.folder / "hello.csv")
