@@ -129,6 +129,14 @@ TrainedStyle train_style(const MotionTable& table, const StyleOptions& options,
   return trained;
 }
 
+FrameMatrixD StyleModel::on_own_face(const FrameMatrixD& coefficients) const {
+  FrameMatrixD own = coefficients;
+  if (to_own_face.size() > 0) {
+    own.rowwise() += to_own_face.transpose();
+  }
+  return own;
+}
+
 MotionStyler::MotionStyler(const StyleModel& model, const Layout& layout, const PcaModel& pca)
     : model_(&model), pca_(&pca),
       restyler_(model.known, FrameVectors(pca, model.bundle, model.vectors), model.ridge),
@@ -140,7 +148,9 @@ StyledMotion MotionStyler::apply(const StyleRequest& request) const {
   const Eigen::MatrixXd wanted = glide(request.wanted, request.rate_hz, request.glide_s);
   StyledMotion styled;
   warn_of_range(*model_, wanted, styled.warnings);
-  styled.coefficients = restyler_.restyle(request.coefficients, shown, wanted);
+  const FrameMatrixD own = model_->on_own_face(request.coefficients);
+  // What does not change keeps its bits.
+  styled.coefficients = request.coefficients + (restyler_.restyle(own, shown, wanted) - own);
   if (!aperture_ || styled.coefficients == request.coefficients) {
     return styled;
   }

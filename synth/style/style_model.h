@@ -41,6 +41,12 @@ struct StyleModel {
   SymmetricModel unknown;        // for motion whose style has to be found
   ContactRanges contacts;        // empty where the layout cannot say
   std::vector<ValidRange> valid; // of each style but neutral
+  // #dimensions: from the face of whoever is restyled to the face that it was trained on; empty:
+  // they are the same. A bilinear model would take the shape of another face for speech.
+  Eigen::VectorXd to_own_face;
+
+  // The same motion (#frames by #dimensions) of the model's own face.
+  FrameMatrixD on_own_face(const FrameMatrixD& coefficients) const;
 };
 
 struct TrainedStyle {

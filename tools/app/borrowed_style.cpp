@@ -8,6 +8,7 @@
 #include "tools/app/style_models.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -24,6 +25,34 @@ bool knows(const StyleModel& model, const std::vector<std::string>& emotions) {
   });
 }
 
+// The mean of what a speaker says in an emotion: #dimensions; nothing where nothing is said in it.
+std::optional<Eigen::VectorXd> mean_face(const MotionTable& table, const std::string& emotion) {
+  const std::optional<std::int32_t> index = table.find_emotion(emotion);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(table.pca.dimension_count());
+  double frames = 0.0;
+  for (const MotionNode& node : table.nodes) {
+    if (index && node.emotion == *index) {
+      sum += table.coefficients.middleRows(node.first_frame, node.frame_count)
+                 .cast<double>()
+                 .colwise()
+                 .sum()
+                 .transpose();
+      frames += node.frame_count;
+    }
+  }
+  return frames > 0.0 ? std::optional<Eigen::VectorXd>(sum / frames) : std::nullopt;
+}
+
+// From the face of one speaker to that of another: as they speak neutrally, else as they rest.
+Eigen::VectorXd between_faces(const MotionTable& from, const MotionTable& to,
+                              const std::string& neutral) {
+  const std::optional<Eigen::VectorXd> first = mean_face(from, neutral);
+  const std::optional<Eigen::VectorXd> second = mean_face(to, neutral);
+  return first && second
+             ? Eigen::VectorXd(*second - *first)
+             : to.pca.project(to.reference_pose) - from.pca.project(from.reference_pose);
+}
+
 // Of the other speakers' fresh models the first that knows the emotions.
 std::optional<StyleInUse> borrow(const MotionDatabase& database, const MotionTable& table,
                                  const std::vector<std::string>& emotions,
@@ -32,9 +61,12 @@ std::optional<StyleInUse> borrow(const MotionDatabase& database, const MotionTab
     if (speaker == table.speaker || !database.load_style_model(speaker)) {
       continue;
     }
-    KeptStyle kept = load_style(database, database.load_motion_table(speaker), where);
+    const MotionTable lender = database.load_motion_table(speaker);
+    KeptStyle kept = load_style(database, lender, where);
     if (kept.state == StyleState::fresh && knows(kept.trained->model, emotions)) {
-      return StyleInUse{.model = std::move(kept.trained->model), .speaker = speaker};
+      StyleInUse lent{.model = std::move(kept.trained->model), .speaker = speaker};
+      lent.model.to_own_face = between_faces(table, lender, lent.model.neutral);
+      return lent;
     }
   }
   return std::nullopt;
@@ -51,10 +83,15 @@ StyleInUse find_style_model(const std::filesystem::path& path, const MotionTable
   }
   std::optional<StyleInUse> borrowed = borrow(database, table, emotions, path.string());
   if (!borrowed) {
-    StyleModel model = require_style(database, table, path.string());
+    const StyleModel model = require_style(database, table, path.string());
+    std::vector<std::string> unknown;
+    std::ranges::copy_if(emotions, std::back_inserter(unknown),
+                         [&](const std::string& emotion) { return !knows(model, {emotion}); });
     throw InputError(
         {.where = path.string(),
-         .what = fmt::format("no style model of its speakers knows {}", fmt::join(emotions, ", ")),
+         .what = fmt::format("the style model of {} does not know {}, and no other does that could "
+                             "lend it",
+                             table.speaker, fmt::join(unknown, ", ")),
          .expected = fmt::format("some of {}", fmt::join(model.known.styles, ", ")),
          .remedy = "`phonomime style train` takes the emotions that a speaker recorded."});
   }

@@ -17,8 +17,9 @@ struct StyleInUse {
 };
 
 // A fresh model that knows all of `emotions`: the speaker's own where it does, else the first of
-// another speaker's (by name) that does; the PCA is the same for all. The contacts of the lips are
-// those of `table`. Throws InputError where there is none, and says what to do.
+// another speaker's (by name) that does; the PCA is the same for all. A model that is borrowed
+// changes `table`'s face as it would its own; the contacts of the lips are those of `table`. Throws
+// InputError where there is none, and says what to do.
 StyleInUse find_style_model(const std::filesystem::path& database, const MotionTable& table,
                             const std::vector<std::string>& emotions);
 

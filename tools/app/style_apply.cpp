@@ -117,7 +117,7 @@ EmotionMixture find_emotion(const StyleModel& model, const PcaModel& pca,
     frames.push_back(k);
   }
   const Eigen::MatrixXd bundles =
-      FrameVectors(pca, model.bundle, model.vectors).bundles(coefficients);
+      FrameVectors(pca, model.bundle, model.vectors).bundles(model.on_own_face(coefficients));
   const auto count = std::min(kFramesLookedAt, static_cast<Eigen::Index>(frames.size()));
   Eigen::MatrixXd looked_at(bundles.rows(), count);
   for (Eigen::Index i = 0; i < count; ++i) {

@@ -100,7 +100,7 @@ ChosenUnknown chosen_unknown_from_json(const Json& json) {
 
 // Members are named one by one, so that one that is added is not forgotten here.
 Json model_to_json(const StyleModel& model) {
-  const auto& [neutral, vectors, bundle, ridge, known, unknown, contacts, valid] = model;
+  const auto& [neutral, vectors, bundle, ridge, known, unknown, contacts, valid, lent] = model;
   Json json{{"neutral", neutral},
             {"styles", known.styles},
             {"vectors", vectors == StyleVectors::channels ? kChannels : kCoefficients},

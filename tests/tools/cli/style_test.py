@@ -2,6 +2,8 @@
 """phonomime style, and what emotions do in synth beyond what was recorded: less, more, mixed, borrowed."""
 import csv
 import json
+import shutil
+import signal
 import sqlite3
 
 import phonomime_cli as cli
@@ -9,16 +11,19 @@ import tiny_corpus
 
 # How the corners of the lips go up and apart in the made-up happiness, the chin down in anger: mm.
 HAPPINESS, ANGER = 4.0, -3.0
+# Where bob's face is another than ann's: mm.
+BOB = {"corner_r": (-6, -8, 3), "corner_l": (6, -8, 3), "chin": (0, -15, 4), "cheek": (8, 0, -6), "lip_lo": (0, -1, 2)}
 SPOKEN = "b aa m eh p iy s ow l f".split()
 
 
 def shift(sentence, emotion):
-    """The sentence's own motion, with the emotion's marks on the face (which hardly turns)."""
+    """The sentence's own motion, with the emotion's marks on the speaker's face (which hardly turns)."""
     frames = []
     for frame in tiny_corpus.motion_frames(sentence.rows, seed=7):
         moved = list(frame)
         for i, name in enumerate(tiny_corpus.MARKERS):
-            x, y, z = moved[i]
+            x, y, z = (a + b for a, b in zip(moved[i], BOB.get(name, (0, 0, 0)) if sentence.speaker == "bob" else (0, 0, 0)))
+            moved[i] = (x, y, z)
             if emotion == "happiness" and name.startswith("corner"):
                 moved[i] = (x, y + HAPPINESS, z)
             if emotion == "anger" and name == "chin":
@@ -238,6 +243,11 @@ class StyleTest(cli.CliTest):
                             "--emotion", "happiness", "-o", self.folder / "happy.csv")
         self.assertIn("bob never recorded happiness: it is borrowed from the style model of ann", said)
         self.assertAlmostEqual(moved(neutral, self.folder / "happy.csv", "corner_l_y"), HAPPINESS, delta=0.6)
+        # Nobody lends its tempo.
+        said = cli.run_well("synth", "--db", self.database, "--speaker", "bob", self.transcript, "--retime",
+                            "--emotion", "happiness", "-o", self.folder / "happy.csv")
+        self.assertIn("happiness 1 (never recorded)", said)
+        self.assertAlmostEqual(moved(neutral, self.folder / "happy.csv", "corner_l_y"), HAPPINESS, delta=0.6)
         self.assertRefused(cli.BAD_INPUT, ['"joy"', "neutral"], "synth", "--db", self.database, "--speaker", "bob",
                            self.transcript, "--emotion", "joy", "-o", self.folder / "out.csv")
 
@@ -338,6 +348,30 @@ class StyleKillTest(cli.CliTest):
                 else:
                     self.assertIn("no style model", shown.stderr)
                 self.assertEqual(cli.run_json("nodes", database), nodes)
+
+    def test_a_training_that_is_interrupted_says_so_and_leaves_all_as_it_was(self):
+        database = self.folder / "made.db"
+        cli.run_well("import", corpus(self.folder / "ann", "ann", ("neutral", "happiness")), "--db", database)
+        call = ("style", "train", str(database), "--threads", "1")
+        before, before_bytes = cli.contents(self.folder), database.read_bytes()
+        trained = self.folder.parent / (self.folder.name + ".trained.db")
+        shutil.copyfile(database, trained)
+        self.addCleanup(trained.unlink)
+        whole = cli.run_until("style", "train", str(trained), "--threads", "1").work_s
+        stops = []
+        for i, number in enumerate(3 * [signal.SIGINT, signal.SIGTERM]):
+            with self.subTest(i):
+                stop = cli.run_until(*call, number=number, after_s=whole * (i + 0.5) / 6)
+                self.assertIn(stop.status, (cli.DONE, cli.INTERRUPTED, -number), stop.said)
+                if stop.status == cli.DONE:
+                    database.write_bytes(before_bytes)
+                    continue
+                self.assertEqual(cli.contents(self.folder), before)
+                if stop.status == cli.INTERRUPTED:
+                    self.assertEqual(stop.said, "phonomime: interrupted\n")
+                    stops.append(stop.work_s / whole)
+        # In mid-work, not only before or after it.
+        self.assertTrue(any(0.3 < share < 0.8 for share in stops), stops)
 
 
 if __name__ == "__main__":
