@@ -238,6 +238,23 @@ TEST_F(MotionTableTest, IsTheSameHoweverManyThreadsRead) {
   omp_set_num_threads(usual);
 }
 
+// Threads open the file by its name again.
+TEST_F(MotionTableTest, IsThatOfTheFileThatWasOpenedThoughAnotherTookItsName) {
+  corpus = test::made_corpus("a", 6);
+  import();
+  const MotionDatabase opened = MotionDatabase::open(path, OpenMode::read_only);
+  const MotionTable before = opened.load_motion_table("s1");
+  const std::filesystem::path first = path;
+  path = folder / "other.db";
+  corpus = test::made_corpus("b", 6);
+  import();
+  std::filesystem::rename(path, first);
+  const MotionTable after = opened.load_motion_table("s1");
+  EXPECT_EQ(after.coefficients, before.coefficients);
+  EXPECT_NE(MotionDatabase::open(first, OpenMode::read_only).load_motion_table("s1").coefficients,
+            before.coefficients);
+}
+
 TEST_F(MotionTableTest, ChannelsAndHeadPosesComeBackBitForBit) {
   import();
   const MotionDatabase database = MotionDatabase::open(path, OpenMode::read_only);

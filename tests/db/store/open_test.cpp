@@ -184,6 +184,8 @@ TEST_F(OpenTest, ContentThatBreaksItsPromisesIsRefused) {
   refused("DELETE FROM coefficients");
   refused(
       "UPDATE coefficients SET frames = CAST(zeroblob(length(frames) - 4) || x'0000c07f' AS BLOB)");
+  refused(
+      "UPDATE coefficients SET frames = CAST(x'0000807f' || zeroblob(length(frames) - 4) AS BLOB)");
   refused("UPDATE channels SET frames = x''");
   refused("UPDATE channels SET frames = CAST(zeroblob(length(frames) - 4) || x'0000c07f' AS BLOB)");
   refused("UPDATE head_poses SET poses = x'0001'");
