@@ -13,6 +13,8 @@
 namespace phonomime {
 namespace {
 
+constexpr Eigen::Index kMostClustered = 20'000; // frames, for the curves
+
 std::vector<Eigen::Index> frames_of(const KeyshapeSelection& selection, std::size_t count) {
   std::vector<Eigen::Index> frames;
   for (std::size_t i = 0; i < std::min(count, selection.chosen.size()); ++i) {
@@ -84,16 +86,17 @@ std::vector<ErrorCurve> error_curves(const FrameMatrixD& points, const KeyshapeM
     curves[0].errors.push_back(error(frames_of(extrema, static_cast<std::size_t>(count))));
   }
   trial.method = KeyshapeMethod::clusters;
-  const FrameMatrixD few = thinned(points, measure.every);
+  const auto clustered_every = static_cast<int>(1 + (points.rows() - 1) / kMostClustered);
+  const FrameMatrixD clustered = thinned(points, clustered_every);
   for (const int dimensions : {2, 3}) {
     trial.cluster_dimensions = dimensions;
     std::vector<KeyshapeError>& errors = curves[static_cast<std::size_t>(dimensions - 1)].errors;
     for (const int count : counts_up_to(options.count, steps)) {
       trial.count = count;
-      const KeyshapeSelection found = select_keyshapes(few, trial);
+      const KeyshapeSelection found = select_keyshapes(clustered, trial);
       std::vector<Eigen::Index> frames = frames_of(found, found.chosen.size());
       for (Eigen::Index& frame : frames) {
-        frame *= std::max(measure.every, 1);
+        frame *= clustered_every;
       }
       errors.push_back(error(frames));
     }

@@ -39,7 +39,8 @@ double motion_square(const KeyshapeMeasure& measure);
 
 // T figure 3.6: the error as the number grows to `options.count`, for extrema, clusters in 2 and 3
 // dimensions, and the hull (one number of keyshapes). `points`: #frames by #axes, the frames of
-// `measure`. Clusters are looked for in the measured frames. At most `steps` numbers a curve.
+// `measure`. Clusters are looked for in at most 20,000 frames spread over all. At most `steps`
+// numbers a curve.
 std::vector<ErrorCurve> error_curves(const FrameMatrixD& points, const KeyshapeMeasure& measure,
                                      const KeyshapeOptions& options, int steps);
 
