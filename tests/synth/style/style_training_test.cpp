@@ -3,6 +3,7 @@
 
 #include "db/types/progress.h"
 #include "synth/style/align_phonemes.h"
+#include "synth/style/mixture.h"
 #include "synth/style/style_model.h"
 #include "tests/support/expect_error.h"
 #include "tests/synth/style/made_table.h"
@@ -27,6 +28,19 @@ std::size_t edit_distance(std::span<const std::int32_t> a, std::span<const std::
       edit_distance(a.first(a.size() - 1), b.first(b.size() - 1)) + (a.back() == b.back() ? 0 : 1);
   return std::min({last, edit_distance(a.first(a.size() - 1), b) + 1,
                    edit_distance(a, b.first(b.size() - 1)) + 1});
+}
+
+// Eight sentences, neutral and joyful.
+MadeTable made_speaker() {
+  MadeTable made;
+  for (int i = 0; i < 8; ++i) {
+    const std::string id = "s" + std::to_string(i);
+    made.say(id, "neutral", {{"a", 9 + i}, {"b", 12}, {"c", 8}});
+    made.say(id, "joy", {{"a", 11}, {"b", 9 + i}, {"c", 7}});
+  }
+  made.table.layout.groups = {{"chin", {Region::jaw}}, {"lip", {Region::lips}}};
+  made.table.pca.variance = Eigen::Vector2d(100.0, 1.0);
+  return made;
 }
 
 } // namespace
@@ -184,14 +198,7 @@ TEST(StyleTraining, RefusesWhatIsNotThere) {
 }
 
 TEST(TrainStyle, TellsItsStagesAndStopsInEach) {
-  MadeTable made;
-  for (int i = 0; i < 8; ++i) {
-    const std::string id = "s" + std::to_string(i);
-    made.say(id, "neutral", {{"a", 9 + i}, {"b", 12}, {"c", 8}});
-    made.say(id, "joy", {{"a", 11}, {"b", 9 + i}, {"c", 7}});
-  }
-  made.table.layout.groups = {{"chin", {Region::jaw}}, {"lip", {Region::lips}}};
-  made.table.pca.variance = Eigen::Vector2d(100.0, 1.0);
+  const MadeTable made = made_speaker();
   const StyleOptions options{.training = {.parts = 4}, .bundle = 1, .threads = 2};
   std::vector<std::string> stages;
   Progress progress;
@@ -212,6 +219,30 @@ TEST(TrainStyle, TellsItsStagesAndStopsInEach) {
     EXPECT_THROW(train_style(made.table, options, stopping), Interrupted);
     EXPECT_EQ(told, last);
   }
+}
+
+TEST(MotionStyler, ChangesAnotherFaceAsTheModelsOwn) {
+  const MadeTable made = made_speaker();
+  const MotionTable& table = made.table;
+  StyleModel model =
+      train_style(table, {.bundle = 1, .content_size = 2, .ridge = 0.01, .threads = 1}).model;
+  const Eigen::Vector2d away(3.0, -2.0);
+  StyleRequest request{.coefficients = table.coefficients.topRows(20).cast<double>(),
+                       .rate_hz = 100.0};
+  request.shown = mixture_weights(model.known.styles, "neutral", {}).replicate(1, 20);
+  const EmotionModifier joy{"joy", 1.0};
+  request.wanted = mixture_weights(model.known.styles, "neutral", {&joy, 1}).replicate(1, 20);
+  const auto change = [&] {
+    return FrameMatrixD(apply_style(model, table.layout, table.pca, request).coefficients -
+                        request.coefficients);
+  };
+  const FrameMatrixD own = change();
+  request.coefficients.rowwise() -= away.transpose();
+  EXPECT_GT((change() - own).norm(), 0.01 * own.norm());
+  model.to_own_face = away;
+  EXPECT_LT((change() - own).norm(), 1e-9 * own.norm());
+  request.wanted = request.shown;
+  EXPECT_EQ(change().norm(), 0.0);
 }
 
 } // namespace phonomime::test

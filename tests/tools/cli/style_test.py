@@ -242,12 +242,12 @@ class StyleTest(cli.CliTest):
         said = cli.run_well("synth", "--db", self.database, "--speaker", "bob", self.transcript,
                             "--emotion", "happiness", "-o", self.folder / "happy.csv")
         self.assertIn("bob never recorded happiness: it is borrowed from the style model of ann", said)
-        self.assertAlmostEqual(moved(neutral, self.folder / "happy.csv", "corner_l_y"), HAPPINESS, delta=0.6)
+        self.assertAlmostEqual(moved(neutral, self.folder / "happy.csv", "corner_l_y"), HAPPINESS, delta=0.15)
         # Nobody lends its tempo.
         said = cli.run_well("synth", "--db", self.database, "--speaker", "bob", self.transcript, "--retime",
                             "--emotion", "happiness", "-o", self.folder / "happy.csv")
         self.assertIn("happiness 1 (never recorded)", said)
-        self.assertAlmostEqual(moved(neutral, self.folder / "happy.csv", "corner_l_y"), HAPPINESS, delta=0.6)
+        self.assertAlmostEqual(moved(neutral, self.folder / "happy.csv", "corner_l_y"), HAPPINESS, delta=0.15)
         self.assertRefused(cli.BAD_INPUT, ['"joy"', "neutral"], "synth", "--db", self.database, "--speaker", "bob",
                            self.transcript, "--emotion", "joy", "-o", self.folder / "out.csv")
 
