@@ -21,6 +21,9 @@ constexpr std::size_t kManyNodes = 4096;
 // In PNT. What a look at joins could raise a bound by is not worth it below.
 constexpr double kTightEnough = 0.03;
 
+// So many nodes of a step, or a few more, tell about how little the least of all of them has.
+constexpr std::size_t kSample = 64;
+
 } // namespace
 
 double StepBounds::operator[](NodeIndex node) const {
@@ -56,37 +59,64 @@ StepBounds RelaxedRecursion::border(const StepPenalties& penalties) const {
 
 StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBounds& neighbour,
                                   const StepPenalties& neighbour_penalties,
-                                  JoinFrontier::Counts& counts, KeptJoins* kept) const {
-  const double most = penalties.near();
-  std::vector<NodeIndex> active = penalties.nodes_up_to(most);
-  const std::vector<double> limits(active.size(), kInfinity);
-  StepBounds bounds =
-      bounds_of(std::move(active), limits, neighbour, neighbour_penalties, counts, kept);
-  bounds.active_penalty = most;
+                                  JoinFrontier::Counts& counts, KeptJoins* kept,
+                                  double window) const {
+  const Ahead ahead(neighbour, neighbour_penalties);
+  StepBounds bounds = unknown_bounds(penalties.nodes_up_to(penalties.near()), ahead, kept);
+  bounds.active_penalty = penalties.near();
+  const std::vector<std::size_t> places = all_places(bounds.active);
+  Wanted first; // by which the least of the step is told
+  Wanted rest;
+  const bool all = window == kInfinity || places.size() < 2 * kSample;
+  const std::size_t stride = all ? 1 : places.size() / kSample;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    (i % stride == stride / 2 ? first : rest).places.push_back(places[i]);
+  }
+  const JoinFrontier frontier(side_, kernels_, ahead.nodes, ahead.values);
+  first.limits.assign(first.places.size(), ahead.least_inactive);
+  look(bounds, first, ahead, frontier, kept, counts);
+  double least = kInfinity;
+  for (const std::size_t place : first.places) {
+    least = std::min(least, penalties[bounds.active[place]] + bounds.bound[place]);
+  }
+  for (const std::size_t place : rest.places) {
+    const double limit = least + window - penalties[bounds.active[place]];
+    rest.limits.push_back(std::min(ahead.least_inactive, std::max(ahead.least, limit)));
+  }
+  look(bounds, rest, ahead, frontier, kept, counts);
   return bounds;
 }
 
 StepBounds RelaxedRecursion::bounds_of(std::vector<NodeIndex> active,
                                        std::span<const double> limits, const StepBounds& neighbour,
                                        const StepPenalties& neighbour_penalties,
-                                       JoinFrontier::Counts& counts, KeptJoins* kept) const {
+                                       JoinFrontier::Counts& counts) const {
+  const Ahead ahead(neighbour, neighbour_penalties);
+  StepBounds bounds = unknown_bounds(std::move(active), ahead, nullptr);
+  Wanted wanted;
+  wanted.places = all_places(bounds.active);
+  for (const std::size_t place : wanted.places) {
+    wanted.limits.push_back(std::min(limits[place], ahead.least_inactive));
+  }
+  look(bounds, wanted, ahead, {side_, kernels_, ahead.nodes, ahead.values}, nullptr, counts);
+  for (std::size_t place = 0; place < bounds.active.size(); ++place) {
+    if (bounds.partner[place] == kNoNode) {
+      bounds.bound[place] = ahead.least_inactive;
+    }
+  }
+  return bounds;
+}
+
+StepBounds RelaxedRecursion::unknown_bounds(std::vector<NodeIndex> active, const Ahead& ahead,
+                                            KeptJoins* kept) {
   StepBounds bounds;
   bounds.active = std::move(active);
   bounds.bound.resize(bounds.active.size());
   bounds.partner.assign(bounds.active.size(), kNoNode);
-  const Ahead ahead(neighbour, neighbour_penalties);
   bounds.inactive_bound = std::min(ahead.least_inactive, ahead.least);
   if (kept != nullptr) {
     kept->reset(bounds.active.size(), ahead.nodes, ahead.values);
   }
-  Wanted wanted;
-  wanted.places.resize(bounds.active.size());
-  std::iota(wanted.places.begin(), wanted.places.end(), std::size_t{0});
-  sort_by_ends(wanted.places, bounds.active);
-  for (const std::size_t place : wanted.places) {
-    wanted.limits.push_back(std::min(limits[place], ahead.least_inactive));
-  }
-  look(bounds, wanted, ahead, kept, counts);
   return bounds;
 }
 
@@ -126,11 +156,12 @@ void RelaxedRecursion::renew(StepBounds& bounds, KeptJoins& kept, const StepPena
   for (const std::size_t place : wanted.places) {
     wanted.known.push_back(kept.joins(place, value_of, ahead.least_inactive));
   }
-  look(bounds, wanted, ahead, &kept, counts);
+  look(bounds, wanted, ahead, {side_, kernels_, ahead.nodes, ahead.values}, &kept, counts);
 }
 
 void RelaxedRecursion::look(StepBounds& bounds, const Wanted& wanted, const Ahead& ahead,
-                            KeptJoins* kept, JoinFrontier::Counts& counts) const {
+                            const JoinFrontier& frontier, KeptJoins* kept,
+                            JoinFrontier::Counts& counts) const {
   const bool many = std::max(bounds.active.size(), ahead.nodes.size()) > kManyNodes;
   if (!many) {
     kernels_.ensure(bounds.active);
@@ -139,20 +170,27 @@ void RelaxedRecursion::look(StepBounds& bounds, const Wanted& wanted, const Ahea
   std::vector<NodeIndex> nodes;
   std::ranges::transform(wanted.places, std::back_inserter(nodes),
                          [&](std::size_t place) { return bounds.active[place]; });
-  JoinFrontier(side_, kernels_, ahead.nodes, ahead.values)
-      .bound_joins(
-          {.nodes = nodes,
-           .tightness = many ? JoinFrontier::Tightness::rough : JoinFrontier::Tightness::tight,
-           .limits = wanted.limits,
-           .known = wanted.known},
-          counts, [&](std::size_t i, NodeIndex, const JoinFrontier::LeastJoins& least) {
-            const std::size_t place = wanted.places[i];
-            bounds.bound[place] = std::min(ahead.least_inactive, least.value());
-            bounds.partner[place] = least.node();
-            if (kept != nullptr) {
-              kept->keep(place, least);
-            }
-          });
+  frontier.bound_joins(
+      {.nodes = nodes,
+       .tightness = many ? JoinFrontier::Tightness::rough : JoinFrontier::Tightness::tight,
+       .limits = wanted.limits,
+       .known = wanted.known},
+      counts, [&](std::size_t i, NodeIndex, const JoinFrontier::LeastJoins& least) {
+        const std::size_t place = wanted.places[i];
+        const double found = std::min(least.value(), least.limit());
+        bounds.bound[place] = std::min(ahead.least_inactive, found);
+        bounds.partner[place] = least.node();
+        if (kept != nullptr) {
+          kept->keep(place, least);
+        }
+      });
+}
+
+std::vector<std::size_t> RelaxedRecursion::all_places(std::span<const NodeIndex> nodes) const {
+  std::vector<std::size_t> places(nodes.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  sort_by_ends(places, nodes);
+  return places;
 }
 
 void RelaxedRecursion::sort_by_ends(std::vector<std::size_t>& places,

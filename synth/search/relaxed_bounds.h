@@ -55,10 +55,11 @@ public:
   StepBounds border(const StepPenalties& penalties) const;
 
   // Bounds at a step, from those at its neighbour on the side.
-  // `kept` is filled for renew() where it is given.
+  // `kept` is filled for renew() where it is given. Nodes whose penalty + bound is more than
+  // `window` above about the least of the step get a bound that holds and is not tight.
   StepBounds next(const StepPenalties& penalties, const StepBounds& neighbour,
                   const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts,
-                  KeptJoins* kept = nullptr) const;
+                  KeptJoins* kept = nullptr, double window = JoinFrontier::kInfinity) const;
 
   // Has the bounds of the active nodes rise after those at the neighbouring step have risen, or
   // nodes have been taken away there. Where the least join of a node may be none of those kept,
@@ -72,7 +73,7 @@ public:
   // whose bound is above its limit (as many as nodes).
   StepBounds bounds_of(std::vector<NodeIndex> nodes, std::span<const double> limits,
                        const StepBounds& neighbour, const StepPenalties& neighbour_penalties,
-                       JoinFrontier::Counts& counts, KeptJoins* kept = nullptr) const;
+                       JoinFrontier::Counts& counts) const;
 
   // Whose join gave the bound of `node` in `own`, if that is known and not blocked; else the one of
   // the neighbour's active nodes with the least rough bound for a join with it.
@@ -80,7 +81,7 @@ public:
                     const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts) const;
 
 private:
-  // What bounds_of() and renew() know of the neighbouring step.
+  // What next(), bounds_of() and renew() know of the neighbouring step.
   struct Ahead {
     Ahead(const StepBounds& neighbour, const StepPenalties& penalties);
     std::span<const NodeIndex> nodes; // its active ones
@@ -98,8 +99,14 @@ private:
     std::vector<double> limits;
     std::vector<JoinFrontier::LeastJoins> known;
   };
-  void look(StepBounds& bounds, const Wanted& wanted, const Ahead& ahead, KeptJoins* kept,
-            JoinFrontier::Counts& counts) const;
+  // `frontier`: of the active nodes ahead.
+  void look(StepBounds& bounds, const Wanted& wanted, const Ahead& ahead,
+            const JoinFrontier& frontier, KeptJoins* kept, JoinFrontier::Counts& counts) const;
+  // Of nodes none of which has been looked at; `kept` as in next().
+  static StepBounds unknown_bounds(std::vector<NodeIndex> active, const Ahead& ahead,
+                                   KeptJoins* kept);
+  // Of all nodes, sorted by ends.
+  std::vector<std::size_t> all_places(std::span<const NodeIndex> nodes) const;
   // Has places whose nodes' ends are alike stand near each other.
   void sort_by_ends(std::vector<std::size_t>& places, std::span<const NodeIndex> nodes) const;
 

@@ -13,6 +13,10 @@ namespace phonomime {
 
 namespace {
 
+// In PNT. A good path has no node whose cost, with all that follows, is much further above the
+// least of its step.
+constexpr double kWindow = 1.25;
+
 // In PNT. Active nodes that were the near ones go on to be as long as near reaches less further.
 constexpr double kStillNear = 0.5;
 
@@ -29,7 +33,8 @@ public:
   // `further`: whether renew() is to come.
   BoundsToGo(JoinKernels& kernels, const Progress& progress, bool further)
       : recursion_(kernels, JoinFrontier::Side::later), progress_(progress), further_(further),
-        near_enough_(kStillNear * kernels.cost.weights().pnt) {}
+        near_enough_(kStillNear * kernels.cost.weights().pnt),
+        window_(kWindow * kernels.cost.weights().pnt) {}
 
   void make(std::span<const StepPenalties> penalties, JoinFrontier::Counts& counts) {
     steps_.assign(penalties.size(), {});
@@ -62,13 +67,14 @@ private:
     steps_[t] = t + 1 == penalties.size()
                     ? recursion_.border(penalties[t])
                     : recursion_.next(penalties[t], steps_[t + 1], penalties[t + 1], counts,
-                                      further_ ? &kept_[t] : nullptr);
+                                      further_ ? &kept_[t] : nullptr, window_);
   }
 
   RelaxedRecursion recursion_;
   const Progress& progress_;
   bool further_;
   double near_enough_;
+  double window_;
   std::vector<StepBounds> steps_;
   std::vector<KeptJoins> kept_; // per step, where further_
 };
