@@ -221,6 +221,51 @@ TEST(TrainStyle, TellsItsStagesAndStopsInEach) {
   }
 }
 
+TEST(ValidRange, EndsWhereATwentiethOfTheFacesIsStrange) {
+  const MadeTable made = made_speaker();
+  const MotionTable& table = made.table;
+  const StyleModel model =
+      train_style(table, {.bundle = 1, .content_size = 2, .ridge = 0.01, .threads = 1}).model;
+  const auto strangeness = [](const Eigen::Vector2d& frame) {
+    return frame[0] * frame[0] / 100.0 + frame[1] * frame[1];
+  };
+  std::vector<double> recorded;
+  std::vector<Eigen::Vector2d> neutral;
+  for (NodeIndex n = 0; n < table.node_count(); ++n) {
+    const FrameMatrixD frames = table.node_frames(n).cast<double>();
+    for (Eigen::Index t = 0; t < frames.rows(); ++t) {
+      recorded.push_back(strangeness(frames.row(t)));
+      if (table.nodes[static_cast<std::size_t>(n)].emotion == *table.find_emotion("neutral")) {
+        neutral.emplace_back(frames.row(t));
+      }
+    }
+  }
+  std::ranges::sort(recorded);
+  const double limit = recorded[(recorded.size() - 1) * 99 / 100];
+  StyleRequest request{.coefficients = FrameMatrixD(neutral.size(), 2), .rate_hz = 100.0};
+  for (std::size_t t = 0; t < neutral.size(); ++t) {
+    request.coefficients.row(static_cast<Eigen::Index>(t)) = neutral[t].transpose();
+  }
+  const Eigen::Index count = request.coefficients.rows();
+  request.shown = mixture_weights(model.known.styles, "neutral", {}).replicate(1, count);
+  ASSERT_EQ(model.valid.size(), 1U);
+  const auto share_of_strange = [&](double intensity) {
+    const EmotionModifier joy{"joy", intensity};
+    request.wanted = mixture_weights(model.known.styles, "neutral", {&joy, 1}).replicate(1, count);
+    const FrameMatrixD shown = apply_style(model, table.layout, table.pca, request).coefficients;
+    double strange = 0.0;
+    for (Eigen::Index t = 0; t < count; ++t) {
+      strange += strangeness(shown.row(t)) > limit ? 1.0 : 0.0;
+    }
+    return strange / static_cast<double>(count);
+  };
+  const double last = model.valid.front().largest_intensity;
+  EXPECT_GT(last, 0.5);
+  EXPECT_LT(last, 2.5);
+  EXPECT_LE(share_of_strange(last - 1e-6), 0.05);
+  EXPECT_GT(share_of_strange(last + kIntensityStep + 1e-6), 0.05);
+}
+
 TEST(MotionStyler, ChangesAnotherFaceAsTheModelsOwn) {
   const MadeTable made = made_speaker();
   const MotionTable& table = made.table;

@@ -63,7 +63,7 @@ TEST(Tempo, RetimesPhonemesAndPausesAndLeavesTheEnds) {
       row("pau", 1.0, 1.4), row("a", 1.4, 1.5), row("pau", 1.5, 2.4)};
   const std::vector<EmotionMixture> emotions = {
       {{"anger", 1.0}}, {{"anger", 1.0}},   {{"anger", 0.5}}, {{"anger", 0.0}},
-      {{"anger", 1.5}}, {{"neutral", 1.5}}, {{"joy", 1.5}}};
+      {{"anger", 1.5}}, {{"neutral", 1.5}}, {{"anger", 1.5}}};
   const std::vector<TimedPhoneme> found = retime(rows, emotions, made_tempo());
   const double durations_s[] = {0.5, 0.2 * 0.6, 0.1 * 0.9, 0.2, 0.4 * 0.25, 0.1, 0.9};
   double start_s = 0.0;
