@@ -264,6 +264,9 @@ TEST(ValidRange, EndsWhereATwentiethOfTheFacesIsStrange) {
   EXPECT_LT(last, 2.5);
   EXPECT_LE(share_of_strange(last - 1e-6), 0.05);
   EXPECT_GT(share_of_strange(last + kIntensityStep + 1e-6), 0.05);
+  EXPECT_EQ(apply_style(model, table.layout, table.pca, request).warnings.size(), 1U);
+  share_of_strange(last);
+  EXPECT_TRUE(apply_style(model, table.layout, table.pca, request).warnings.empty());
 }
 
 TEST(MotionStyler, ChangesAnotherFaceAsTheModelsOwn) {
