@@ -114,9 +114,11 @@ void show_on_face(const std::filesystem::path& path, const KeyshapeChoice& choic
                   const MotionTable& table, const FrameMatrixD& poses, bool with_rest,
                   KeyshapeFolder& folder, const Progress& progress) {
   const MarkerFace face(read_face(path, table.layout), table.layout, table.reference_pose);
-  const FacePainter painter(
-      face.mesh(),
-      Eigen::Map<const Points>(table.reference_pose.data(), table.reference_pose.size() / 3, 3));
+  // The recorded head may rest turned; pictures show the face from its own front.
+  const Eigen::Matrix3d to_front = face.report().placement.rotation;
+  const Eigen::Map<const Points> markers(table.reference_pose.data(),
+                                         table.reference_pose.size() / 3, 3);
+  const FacePainter painter(face.mesh(), markers * to_front);
   if (with_rest) {
     folder.files["rest.glb"] = still_glb(face, face.mesh().positions, "rest", table);
   }
@@ -125,7 +127,7 @@ void show_on_face(const std::filesystem::path& path, const KeyshapeChoice& choic
     for (const ChosenKeyshape& keyshape : set.keyshapes) {
       progress.update("showing keyshapes", row, poses.rows());
       const Points positions = face.deform(poses.row(row++).transpose());
-      folder.files[keyshape.name + ".png"] = painter.png(positions);
+      folder.files[keyshape.name + ".png"] = painter.png(positions * to_front);
       folder.files[keyshape.name + ".glb"] = still_glb(face, positions, keyshape.name, table);
     }
   }
