@@ -48,9 +48,8 @@ TEST(PairTable, IsWrittenAsItIsRead) {
 }
 
 TEST(PairTable, RefusesWhatItCannotTake) {
-  expect_refused(
-      "frame\tjawOpn\nann/neutral/s1#5@0\t1\n",
-      "pairs.tsv:1: unknown column \"jawOpn\" (expected frame, note, browDown_L");
+  expect_refused("frame\tjawOpn\nann/neutral/s1#5@0\t1\n",
+                 "pairs.tsv:1: unknown column \"jawOpn\" (expected frame, note, browDown_L");
   expect_refused("frame\tjawOpen\tjawOpen\n", "pairs.tsv:1: column \"jawOpen\" is there twice");
   expect_refused("note\tjawOpen\n", "column \"frame\" is missing");
   expect_refused("frame\tjawOpen\nann/neutral/s1#5@0\t0.5\nann/neutral/s1#6@0\t1.5\n",
