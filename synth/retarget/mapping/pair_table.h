@@ -26,7 +26,7 @@ struct PairTable {
     std::string note; // for people: what the frame stands for
     long line = 0;    // of the table, 0 where it comes from none
   };
-  std::vector<std::string> shapes; // columns, in the table's order
+  std::vector<std::string> shapes; // that have a column, in the face's order
   std::vector<Row> rows;
   FrameMatrixD weights; // #rows by #shapes, 0 to 1
 };
