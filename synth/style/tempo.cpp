@@ -19,10 +19,13 @@ struct Durations { // frames
     emotion += of_emotion;
     count += 1.0;
   }
-  // As if kTempoPrior more of the mean duration had the overall ratio.
-  double drawn_to(double overall) const {
-    const double prior = count > 0.0 ? kTempoPrior * reference / count : 0.0;
-    return reference > 0.0 ? (emotion + prior * overall) / (reference + prior) : overall;
+  double mean() const { return count > 0.0 ? reference / count : 0.0; }
+
+  // The ratio, as if kTempoPrior more of the mean duration, of all if that is longer, had that of
+  // all. Durations are whole frames: those of short phonemes say least about a ratio.
+  double drawn_to(const Durations& all) const {
+    const double prior = kTempoPrior * std::max(mean(), all.mean());
+    return (emotion + prior * all.emotion / all.reference) / (reference + prior);
   }
 };
 
@@ -56,9 +59,9 @@ EmotionTempo tempo_of(const MotionTable& table, const AlignedSentences& aligned,
   }
   EmotionTempo tempo{.overall = all.emotion / all.reference};
   for (const auto& [viseme, sum] : by_viseme) {
-    tempo.of_viseme[viseme] = sum.drawn_to(tempo.overall);
+    tempo.of_viseme[viseme] = sum.drawn_to(all);
   }
-  tempo.pause = pauses.drawn_to(tempo.overall);
+  tempo.pause = pauses.drawn_to(all);
   return tempo;
 }
 

@@ -26,8 +26,9 @@ struct TempoModel {
 
 // Of aligned phonemes: how long they last in the emotion, all together, by how long the same ones
 // last in the reference. A class' ratio is drawn to the overall one as if kTempoPrior phonemes more
-// of the class' mean duration had that. Pauses, where both readings make one between the same
-// phonemes, are a class of their own. Throws what align_sentences throws.
+// of the class' mean duration, or of all phonemes' if that is longer, had that. Pauses, where both
+// readings make one between the same phonemes, are a class of their own. Throws what
+// align_sentences throws.
 inline constexpr double kTempoPrior = 20.0;
 TempoModel learn_tempo(const MotionTable& table, const TrainingOptions& options);
 

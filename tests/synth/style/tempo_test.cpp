@@ -33,8 +33,9 @@ TEST(Tempo, IsTheRatioOfDurationsDrawnToTheOverallOne) {
   ASSERT_EQ(tempo.emotions.size(), 1U);
   const EmotionTempo& anger = tempo.emotions.at("anger");
   EXPECT_NEAR(anger.overall, 50.0 / 40.0, 1e-12);
-  // 40 phonemes of their own against 20 of the overall ratio.
-  EXPECT_NEAR(anger.of_viseme.at("a"), (40 * 0.5 + 20 * 1.25) / 60.0, 1e-12);
+  // 40 phonemes of their own against 20 of the overall ratio: of 20 frames, the mean of all, where
+  // their own are shorter.
+  EXPECT_NEAR(anger.of_viseme.at("a"), (40 * 5 + 20 * 20 * 1.25) / (40 * 10 + 20 * 20), 1e-12);
   EXPECT_NEAR(anger.of_viseme.at("b"), (40 * 1.5 + 20 * 1.25) / 60.0, 1e-12);
   EXPECT_FALSE(anger.of_viseme.contains("c"));
   EXPECT_EQ(anger.pause, anger.overall); // nobody makes one
@@ -54,7 +55,7 @@ TEST(Tempo, PausesHaveTheirOwnRatio) {
   const EmotionTempo anger =
       learn_tempo(made.table, {.styles = {"neutral", "anger"}}).emotions.at("anger");
   EXPECT_NEAR(anger.overall, 0.5, 1e-12);
-  EXPECT_NEAR(anger.pause, (10 * 3.0 + 20 * 0.5) / 30.0, 1e-12);
+  EXPECT_NEAR(anger.pause, (10 * 24 + 20 * 10 * 0.5) / (10 * 8 + 20 * 10), 1e-12);
 }
 
 TEST(Tempo, RetimesPhonemesAndPausesAndLeavesTheEnds) {
