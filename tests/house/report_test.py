@@ -69,6 +69,13 @@ class Report(unittest.TestCase):
         self.assertIn("skipped in a: Search.Real: ", output)
         self.assertEqual(output.splitlines()[-1], "1 passed, 0 failed, 1 skipped")
 
+    def test_unittest_that_needs_recordings_throughout(self):
+        skips = "test_{} (__main__.X.test_{}) ... skipped 'skipped: needs {}'\n"
+        said = skips.format("x", "x", "../shared/data") + skips.format("y", "y", "{}") + "\nOK (skipped=2)\n"
+        for other, expected in (("../shared/data", 0), ("numpy", 1)):
+            status, output = self.report(case("a", "run"), case("b", "notrun", said.format(other), SKIPPED))
+            self.assertEqual(status, expected, output)
+
     def test_skip_that_needs_the_right_to_mount(self):
         skip = case("a", "run", GTEST_SKIP.format("the right to mount"))
         status, output = self.report(skip, through=WITHOUT_RIGHTS)

@@ -72,7 +72,8 @@ def read_report(path):
             skips += [(name, part, reason) for part, reason in skipped_parts(output)]
         elif status == "notrun" and case.find("skipped") is not None:
             whole.append(name)
-            skips.append((name, "all of it", reason_in(output)))
+            skips += ([(name, part, reason) for part, reason in skipped_parts(output)]
+                      or [(name, "all of it", reason_in(output))])
         elif status == "disabled":
             whole.append(name)
             skips.append((name, "all of it", "it is disabled"))
