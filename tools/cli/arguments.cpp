@@ -179,6 +179,11 @@ void add_database(CLI::App* verb, std::filesystem::path& database, bool option) 
   added->required()->type_name("DB");
 }
 
+void add_speaker(CLI::App* verb, std::string& speaker) {
+  verb->add_option("--speaker", speaker, "Whose recordings, where there are several")
+      ->type_name("NAME");
+}
+
 void add_scale(CLI::App* verb, CallWords& words) {
   verb->add_option("--scale", words.scale,
                    "What millimetres are: measured, or nominal (one camera: frames are brought to "

@@ -79,6 +79,8 @@ struct CallWords {
 // DB as an option --db or as a word of its own.
 void add_database(CLI::App* verb, std::filesystem::path& database, bool option);
 
+void add_speaker(CLI::App* verb, std::string& speaker);
+
 void add_scale(CLI::App* verb, CallWords& words);
 
 // What a transcript is to be spoken like.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/verbs.h"
 
+#include "tools/cli/print_report.h"
 #include "tools/cli/terminal.h"
 
 #include <array>
@@ -95,11 +96,8 @@ std::string report_to_text(const CurateOptions& options, const CurateReport& rep
 
 void run_verb(const CurateArguments& arguments, const CommonArguments& common, const Progress&) {
   const CurateReport report = run_curation(arguments.options);
-  if (common.json) {
-    print(report_to_json(arguments.options, report).dump(1) + "\n");
-  } else if (!common.quiet) {
-    print(report_to_text(arguments.options, report));
-  }
+  print_report(common, report_to_json(arguments.options, report),
+               report_to_text(arguments.options, report));
 }
 
 void run_verb(const JournalArguments& arguments, const CommonArguments& common, const Progress&) {

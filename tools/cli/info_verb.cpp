@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/verbs.h"
 
-#include "tools/cli/terminal.h"
+#include "tools/cli/print_report.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -85,7 +85,7 @@ std::string info_to_text(const DatabaseInfo& info) {
 
 void run_verb(const InfoArguments& arguments, const CommonArguments& common, const Progress&) {
   const DatabaseInfo info = MotionDatabase::open(arguments.database, OpenMode::read_only).info();
-  print(common.json ? info_to_json(info).dump(1) + "\n" : info_to_text(info));
+  print_answer(common, info_to_json(info), info_to_text(info));
 }
 
 } // namespace phonomime

@@ -33,8 +33,7 @@ void add_select(CLI::App* keyshapes, RetargetWords& words) {
       ->type_name("PART...")
       ->capture_default_str();
   verb->add_flag("--by-emotion", options.by_emotion, "A set of keyshapes for each emotion");
-  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
-      ->type_name("NAME");
+  add_speaker(verb, options.speaker);
   verb->add_option("--method", words.keyshape_method, "How: extrema, hull or clusters")
       ->type_name("METHOD")
       ->capture_default_str();
@@ -73,8 +72,7 @@ void add_apply(CLI::App* keyshapes, RetargetWords& words) {
                    "Outputs: .csv; .svg of a drawing; .glb of a figure or a mesh")
       ->required()
       ->type_name("FILE...");
-  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
-      ->type_name("NAME");
+  add_speaker(verb, options.speaker);
   verb->add_option("--layout", options.layout,
                    "The layout.json of the motion, where its unit or axes are not the database's")
       ->type_name("FILE");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/map_reports.h"
+#include "tools/cli/print_report.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/verbs.h"
 
@@ -20,30 +21,18 @@ void tell_state(MapState state, const std::string& phoneme, const std::filesyste
   }
 }
 
-void print_report(const CommonArguments& common, const nlohmann::ordered_json& json,
-                  const std::string& text) {
-  if (common.json) {
-    print(json.dump(1) + "\n");
-  } else {
-    print(text);
-  }
-}
-
 } // namespace
 
 void run_verb(const MapBuildArguments& arguments, const CommonArguments& common,
               const Progress& progress) {
   const std::vector<BuiltMap> maps = build_phoneme_maps(arguments.options, progress);
-  clear_progress();
-  if (common.json || !common.quiet) {
-    print_report(common, built_maps_json(maps), built_maps_text(maps));
-  }
+  print_report(common, built_maps_json(maps), built_maps_text(maps));
 }
 
 void run_verb(const MapShowArguments& arguments, const CommonArguments& common, const Progress&) {
   const std::vector<ShownMap> maps =
       show_phoneme_maps(arguments.database, arguments.speaker, arguments.phoneme);
-  print_report(common, shown_maps_json(maps), shown_maps_text(maps));
+  print_answer(common, shown_maps_json(maps), shown_maps_text(maps));
 }
 
 void run_verb(const MapImageArguments& arguments, const CommonArguments& common,
@@ -51,10 +40,8 @@ void run_verb(const MapImageArguments& arguments, const CommonArguments& common,
   const MapImageReport report = draw_map_image(arguments.options, progress);
   clear_progress();
   tell_state(report.state, report.record.phoneme, arguments.options.database, common);
-  if (common.json || !common.quiet) {
-    print_report(common, map_image_json(arguments.options, report),
-                 map_image_text(arguments.options, report));
-  }
+  print_report(common, map_image_json(arguments.options, report),
+               map_image_text(arguments.options, report));
 }
 
 void run_verb(const MapPickArguments& arguments, const CommonArguments& common,
@@ -62,7 +49,7 @@ void run_verb(const MapPickArguments& arguments, const CommonArguments& common,
   const MapPickReport report = pick_on_map(arguments.options, progress);
   clear_progress();
   tell_state(report.state, report.record.phoneme, arguments.options.database, common);
-  print_report(common, map_pick_json(arguments.options, report),
+  print_answer(common, map_pick_json(arguments.options, report),
                map_pick_text(arguments.options, report));
 }
 
@@ -73,7 +60,7 @@ void run_verb(const MapQualityArguments& arguments, const CommonArguments& commo
   for (const MapFigures& figure : figures) {
     tell_state(figure.state, figure.record.phoneme, arguments.options.database, common);
   }
-  print_report(common, map_figures_json(figures),
+  print_answer(common, map_figures_json(figures),
                arguments.csv ? map_figures_csv(figures) : map_figures_text(figures));
 }
 

@@ -12,11 +12,6 @@ namespace phonomime {
 
 namespace {
 
-void add_speaker(CLI::App* verb, std::string& speaker) {
-  verb->add_option("--speaker", speaker, "Whose recordings, where there are several")
-      ->type_name("NAME");
-}
-
 void add_map_threads(CLI::App* verb, int& threads) {
   verb->add_option("--threads", threads, "Threads to work with (default: one for each core)")
       ->type_name("N");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/print_report.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/verbs.h"
 
@@ -97,7 +98,7 @@ void run_verb(const RecommendArguments& arguments, const CommonArguments& common
       print_message("warning: " + warning);
     }
   }
-  print(common.json ? to_json(report).dump(1) + "\n" : to_text(report));
+  print_answer(common, to_json(report), to_text(report));
 }
 
 } // namespace phonomime

@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/print_report.h"
 #include "tools/cli/retarget_reports.h"
-#include "tools/cli/terminal.h"
 #include "tools/cli/verbs.h"
 
 #include <nlohmann/json.hpp>
 
 namespace phonomime {
 
-namespace {
-
-void print_report(const CommonArguments& common, const nlohmann::ordered_json& json,
-                  const std::string& text) {
-  clear_progress();
-  if (common.json || !common.quiet) {
-    print(common.json ? json.dump(1) + "\n" : text);
-  }
-}
-
-} // namespace
-
 void run_verb(const RetargetListArguments& arguments, const CommonArguments& common,
               const Progress&) {
   const FaceOffer offer = list_face(arguments.options);
-  print(common.json ? face_offer_json(offer).dump(1) + "\n" : face_offer_text(offer));
+  print_answer(common, face_offer_json(offer), face_offer_text(offer));
 }
 
 void run_verb(const RetargetApplyArguments& arguments, const CommonArguments& common,

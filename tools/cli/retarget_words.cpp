@@ -42,8 +42,7 @@ void add_retarget_apply(CLI::App* retarget, RetargetWords& words) {
       ->type_name("FILE...");
   verb->add_option("--db", options.database, "The database whose markers the motion has")
       ->type_name("DB");
-  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
-      ->type_name("NAME");
+  add_speaker(verb, options.speaker);
   verb->add_option("--layout", options.layout,
                    "The layout.json of the motion, where its unit or axes are not the database's")
       ->type_name("FILE");
@@ -80,8 +79,7 @@ void add_retarget_references(CLI::App* retarget, RetargetWords& words) {
   verb->add_option("-o,--output", options.output, "The pair table (.tsv)")
       ->required()
       ->type_name("FILE");
-  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
-      ->type_name("NAME");
+  add_speaker(verb, options.speaker);
   verb->add_option("--extremes", options.references.extremes, "Extreme frames for each emotion")
       ->type_name("N")
       ->capture_default_str();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/print_report.h"
 #include "tools/cli/terminal.h"
 #include "tools/cli/verbs.h"
 
@@ -110,23 +111,17 @@ std::string apply_text(const StyleApplyReport& report) {
   return text;
 }
 
-void print_report(const StyleReport& report, const CommonArguments& common) {
-  print(common.json ? report_json(report).dump(1) + "\n" : report_text(report));
-}
-
 } // namespace
 
 void run_verb(const StyleTrainArguments& arguments, const CommonArguments& common,
               const Progress& progress) {
   const StyleReport report = train_style_models(arguments.options, progress);
-  clear_progress();
-  if (common.json || !common.quiet) {
-    print_report(report, common);
-  }
+  print_report(common, report_json(report), report_text(report));
 }
 
 void run_verb(const StyleShowArguments& arguments, const CommonArguments& common, const Progress&) {
-  print_report(show_style_models(arguments.database, arguments.speaker), common);
+  const StyleReport report = show_style_models(arguments.database, arguments.speaker);
+  print_answer(common, report_json(report), report_text(report));
 }
 
 void run_verb(const StyleApplyArguments& arguments, const CommonArguments& common,

@@ -9,11 +9,6 @@ namespace phonomime {
 
 namespace {
 
-void add_speaker(CLI::App* verb, std::string& speaker) {
-  verb->add_option("--speaker", speaker, "Whose recordings, where there are several")
-      ->type_name("NAME");
-}
-
 void add_style_train(CLI::App* style, StyleWords& words) {
   StyleOptions& options = words.train.options.style;
   CLI::App* verb = style->add_subcommand("train", "Learn a speaker's emotions, and store them");

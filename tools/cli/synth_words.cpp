@@ -46,8 +46,7 @@ void add_synth_options(CLI::App* verb, CallWords& words) {
 
 void add_transcript_options(CLI::App* verb, CallWords& words) {
   SynthOptions& options = words.synth.options;
-  verb->add_option("--speaker", options.speaker, "Whose recordings, where there are several")
-      ->type_name("NAME");
+  add_speaker(verb, options.speaker);
   verb->add_option(
           "--emotion", options.emotion,
           "One emotion throughout, or a mixture as happiness:0.6+anger:0.3 (default: neutral)")
