@@ -5,6 +5,8 @@
 
 # Objects are shared among clones of the repository.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+# What ccache asks of those who precompile headers.
+export CCACHE_SLOPPINESS=pch_defines,time_macros
 
 # Builds targets of a preset, everything where none is named.
 build_preset() { # PRESET [TARGET...]

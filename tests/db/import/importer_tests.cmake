@@ -9,7 +9,7 @@ phonomime_test(importer_test
     ${importer_tests_folder}/nodes_test.cpp
     ${importer_tests_folder}/pca_test.cpp
     ${importer_tests_folder}/resample_test.cpp
-  LINKS phonomime_import fmt::fmt
+  LINKS phonomime_import
   LABELS tsan)
 # Whole imports of made corpora. Of tools/app only what imports: the thread sanitizer's build needs
 # nothing of synth/ for it.
@@ -19,8 +19,8 @@ phonomime_test(import_corpus_test
     ${importer_tests_folder}/import_faults_test.cpp
     ${PROJECT_SOURCE_DIR}/tools/app/find_suspects.cpp
     ${PROJECT_SOURCE_DIR}/tools/app/import_corpus.cpp
-  LINKS phonomime_store phonomime_import fmt::fmt
+  LINKS phonomime_store phonomime_import
   LABELS tsan)
 phonomime_test(import_recordings_test
   SOURCES ${importer_tests_folder}/import_recordings_test.cpp
-  LINKS phonomime_app fmt::fmt)
+  LINKS phonomime_app)
