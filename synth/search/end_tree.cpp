@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace phonomime {
@@ -21,6 +22,9 @@ inline void make_absolute(FloatLanes& lanes) {
   }
 }
 
+using MaskLanes = std::int32_t __attribute__((vector_size(kFloatLanes * sizeof(std::int32_t))));
+using HalfMask = std::int32_t __attribute__((vector_size(kFloatLanes / 2 * sizeof(std::int32_t))));
+
 // What a query asks of eight children, beside their places.
 struct ChildQuery {
   const float* point;
@@ -32,31 +36,42 @@ struct ChildQuery {
 
 // Bounds from city-block distances: value + what the distance says for certain + `other_viseme`
 // where neither `viseme` nor a mixture is meant, less the rounding of these sums.
-inline void bounds_from_distances(const FloatLanes& distances, const ChildQuery& query,
-                                  const float* value, const std::int32_t* visemes, float* bounds) {
+[[gnu::always_inline]] inline void
+bounds_from_distances(const FloatLanes& distances, const ChildQuery& query, const float* value,
+                      const std::int32_t* visemes, FloatLanes& bounds) {
   constexpr float kCertain = 1.0f - 1e-5f;
   constexpr float kBelow = 1.0f - 4e-7f;
-  for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-    const bool same = visemes[lane] == query.viseme || visemes[lane] == kMixed;
-    const float join = std::max(distances[lane] * kCertain - query.margin, 0.0f);
-    bounds[lane] = (value[lane] + (join + (same ? 0.0f : query.other_viseme))) * kBelow;
-  }
+  FloatLanes values;
+  load(values, value);
+  MaskLanes classes;
+  std::memcpy(&classes, visemes, sizeof classes);
+  const FloatLanes nothing = {};
+  const FloatLanes certain = distances * kCertain - query.margin;
+  const FloatLanes join = certain > nothing ? certain : nothing;
+  const MaskLanes same = (classes == query.viseme) | (classes == kMixed);
+  bounds = (values + (join + (same ? nothing : nothing + query.other_viseme))) * kBelow;
 }
 
-inline bool all_above(const float* bounds, float most) {
-  bool above = true;
-  for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-    above &= bounds[lane] > most;
-  }
-  return above;
+// Bit i for bounds[i] <= most.
+[[gnu::always_inline]] inline unsigned bits_within(const FloatLanes& bounds, float most) {
+  constexpr MaskLanes kBits = {1, 2, 4, 8, 16, 32, 64, 128};
+  const MaskLanes bits = (bounds <= most) & kBits;
+  HalfMask halves[2];
+  std::memcpy(halves, &bits, sizeof bits);
+  const HalfMask both = halves[0] | halves[1];
+  return static_cast<unsigned>((both[0] | both[1]) | (both[2] | both[3]));
 }
 
 // Adds up add_feature(f, sum) over the features, f in sum f mod 4; where half of them leave no
-// child within query.most, the other half is not looked at.
+// child within query.most, the other half is not looked at. Returns which children are within, by
+// bits.
 template <typename AddFeature>
-inline void bound_eight(const ChildQuery& query, const float* value, const std::int32_t* visemes,
-                        float* bounds, const AddFeature& add_feature) {
+[[gnu::always_inline]] inline unsigned bound_eight(const ChildQuery& query, const float* value,
+                                                   const std::int32_t* visemes, float* bounds,
+                                                   const AddFeature& add_feature) {
   FloatLanes sums[4] = {};
+  FloatLanes found;
+  unsigned within = 0;
   for (std::size_t half = 0; half < 2; ++half) {
     const std::size_t begin = half * kFeatureCount / 2;
     for (std::size_t f = begin; f < begin + kFeatureCount / 2; f += 4) {
@@ -65,17 +80,20 @@ inline void bound_eight(const ChildQuery& query, const float* value, const std::
       }
     }
     const FloatLanes total = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-    bounds_from_distances(total, query, value, visemes, bounds);
-    if (all_above(bounds, query.most)) {
-      return;
+    bounds_from_distances(total, query, value, visemes, found);
+    within = bits_within(found, query.most);
+    if (within == 0) {
+      return within;
     }
   }
+  std::memcpy(bounds, &found, sizeof found);
+  return within;
 }
 
 PHONOMIME_DISPATCHED
-void bound_points(const ChildQuery& query, const float* points, const float* value,
-                  const std::int32_t* visemes, float* bounds) {
-  bound_eight(query, value, visemes, bounds, [&](std::size_t f, FloatLanes& sum) {
+unsigned bound_points(const ChildQuery& query, const float* points, const float* value,
+                      const std::int32_t* visemes, float* bounds) {
+  return bound_eight(query, value, visemes, bounds, [&](std::size_t f, FloatLanes& sum) {
     FloatLanes other;
     load(other, points + f * kFloatLanes);
     FloatLanes difference = other - query.point[f];
@@ -86,18 +104,18 @@ void bound_points(const ChildQuery& query, const float* points, const float* val
 
 // The same to the nearest points of boxes.
 PHONOMIME_DISPATCHED
-void bound_boxes(const ChildQuery& query, const float* low, const float* high, const float* value,
-                 const std::int32_t* visemes, float* bounds) {
-  bound_eight(query, value, visemes, bounds, [&](std::size_t f, FloatLanes& sum) {
+unsigned bound_boxes(const ChildQuery& query, const float* low, const float* high,
+                     const float* value, const std::int32_t* visemes, float* bounds) {
+  return bound_eight(query, value, visemes, bounds, [&](std::size_t f, FloatLanes& sum) {
     FloatLanes from, to;
     load(from, low + f * kFloatLanes);
     load(to, high + f * kFloatLanes);
     const float x = query.point[f];
     for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-      from[lane] = std::max(from[lane] - x, 0.0f);
-      to[lane] = std::max(x - to[lane], 0.0f);
+      from[lane] = std::max(from[lane], x);
+      to[lane] = std::min(to[lane], x);
     }
-    sum += from + to;
+    sum += from - to; // at least one of the two is x
   });
 }
 
@@ -164,19 +182,19 @@ EndTree::Level EndTree::boxes(const Level& below, bool below_is_points) {
   return level;
 }
 
-void EndTree::bound_children(const Query& query, double most, std::size_t level, std::size_t group,
-                             std::array<float, kFan>& bounds) const {
+unsigned EndTree::bound_children(const Query& query, double most, std::size_t level,
+                                 std::size_t group, std::array<float, kFan>& bounds) const {
   const Level& own = levels_[level];
   const std::size_t place = group * kFeatures * kFan;
+  // A float that is at most a number is at most the nearest float of it.
   const ChildQuery asked{query.end, query.viseme, query.other_viseme, query.margin,
-                         float_above(most)};
+                         static_cast<float>(most)};
   const float* value = &own.value[group * kFan];
   const std::int32_t* visemes = &own.viseme[group * kFan];
   if (level == 0) {
-    bound_points(asked, &own.low[place], value, visemes, bounds.data());
-  } else {
-    bound_boxes(asked, &own.low[place], &own.high[place], value, visemes, bounds.data());
+    return bound_points(asked, &own.low[place], value, visemes, bounds.data());
   }
+  return bound_boxes(asked, &own.low[place], &own.high[place], value, visemes, bounds.data());
 }
 
 } // namespace phonomime

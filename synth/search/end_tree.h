@@ -4,6 +4,7 @@
 #include "synth/search/join_sketch.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -72,31 +73,38 @@ private:
 
   Level points(const MotionTable& table, NodeEnd which, std::span<const Entry> entries) const;
   static Level boxes(const Level& below, bool below_is_points);
-  // Bounds of the eight children of a group, less tight where all are above `most`.
-  void bound_children(const Query& query, double most, std::size_t level, std::size_t group,
-                      std::array<float, kFan>& bounds) const;
+  // Returns by bits which of the eight children of a group may be within `most`; where there is
+  // any, with the bounds of all of them.
+  unsigned bound_children(const Query& query, double most, std::size_t level, std::size_t group,
+                          std::array<float, kFan>& bounds) const;
 
   template <typename Limit, typename Visit>
   std::int64_t descend(const Query& query, std::size_t level, std::size_t group, const Limit& limit,
                        const Visit& visit) const {
     std::array<float, kFan> bounds;
-    bound_children(query, limit(), level, group, bounds);
-    std::int64_t computed = kFan;
-    for (std::size_t taken = 0; taken < kFan; ++taken) {
-      std::size_t nearest = 0;
-      for (std::size_t i = 1; i < kFan; ++i) {
-        nearest = bounds[i] < bounds[nearest] ? i : nearest;
+    std::array<std::size_t, kFan> nearest; // of those within the limit
+    std::size_t count = 0;
+    for (unsigned left = bound_children(query, limit(), level, group, bounds); left != 0;
+         left &= left - 1) {
+      const auto child = static_cast<std::size_t>(std::countr_zero(left));
+      std::size_t place = count++;
+      for (; place > 0 && bounds[nearest[place - 1]] > bounds[child]; --place) {
+        nearest[place] = nearest[place - 1];
       }
-      if (bounds[nearest] == kNothing || static_cast<double>(bounds[nearest]) > limit()) {
+      nearest[place] = child;
+    }
+    std::int64_t computed = kFan;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float bound = bounds[nearest[i]];
+      if (bound == kNothing || static_cast<double>(bound) > limit()) {
         break;
       }
+      const std::size_t place = group * kFan + nearest[i];
       if (level == 0) {
-        visit(group * kFan + nearest, levels_[0].viseme[group * kFan + nearest],
-              static_cast<double>(bounds[nearest]));
+        visit(place, levels_[0].viseme[place], static_cast<double>(bound));
       } else {
-        computed += descend(query, level - 1, group * kFan + nearest, limit, visit);
+        computed += descend(query, level - 1, place, limit, visit);
       }
-      bounds[nearest] = kNothing;
     }
     return computed;
   }
