@@ -17,9 +17,15 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Where more nodes than this are active (inner pauses), full poses for all of them would cost more
 // than they save.
 constexpr std::size_t kManyNodes = 4096;
+bool needs_rough(std::size_t nodes, std::size_t neighbours) {
+  return std::max(nodes, neighbours) > kManyNodes;
+}
 
 // In PNT. What a look at joins could raise a bound by is not worth it below.
 constexpr double kTightEnough = 0.03;
+
+// Where bounds are rough, the nodes of a step differ less by them.
+constexpr double kRoughShare = 0.6;
 
 // So many nodes of a step, or a few more, tell about how little the least of all of them has.
 constexpr std::size_t kSample = 64;
@@ -36,10 +42,10 @@ double StepBounds::operator[](NodeIndex node) const {
 RelaxedRecursion::Ahead::Ahead(const StepBounds& neighbour, const StepPenalties& penalties)
     : nodes(neighbour.active), least(kInfinity),
       least_inactive(penalties.least_beyond(neighbour.active_penalty) + neighbour.inactive_bound) {
-  values.reserve(nodes.size());
+  values = penalties.of(nodes);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    values.push_back(penalties[nodes[i]] + neighbour.bound[i]);
-    least = std::min(least, values.back());
+    values[i] += neighbour.bound[i];
+    least = std::min(least, values[i]);
   }
 }
 
@@ -64,6 +70,7 @@ StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBoun
   const Ahead ahead(neighbour, neighbour_penalties);
   StepBounds bounds = unknown_bounds(penalties.nodes_up_to(penalties.near()), ahead, kept);
   bounds.active_penalty = penalties.near();
+  const std::vector<double> own_penalties = penalties.of(bounds.active);
   const std::vector<std::size_t> places = all_places(bounds.active);
   Wanted first; // by which the least of the step is told
   Wanted rest;
@@ -77,10 +84,10 @@ StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBoun
   look(bounds, first, ahead, frontier, kept, counts);
   double least = kInfinity;
   for (const std::size_t place : first.places) {
-    least = std::min(least, penalties[bounds.active[place]] + bounds.bound[place]);
+    least = std::min(least, own_penalties[place] + bounds.bound[place]);
   }
   for (const std::size_t place : rest.places) {
-    const double limit = least + window - penalties[bounds.active[place]];
+    const double limit = least + window - own_penalties[place];
     rest.limits.push_back(std::min(ahead.least_inactive, std::max(ahead.least, limit)));
   }
   look(bounds, rest, ahead, frontier, kept, counts);
@@ -122,26 +129,28 @@ StepBounds RelaxedRecursion::unknown_bounds(std::vector<NodeIndex> active, const
 
 void RelaxedRecursion::renew(StepBounds& bounds, KeptJoins& kept, const StepPenalties& penalties,
                              const StepBounds& neighbour, const StepPenalties& neighbour_penalties,
-                             double within, JoinFrontier::Counts& counts) const {
+                             double within, JoinFrontier::Counts& counts) {
   const Ahead ahead(neighbour, neighbour_penalties);
   bounds.inactive_bound = std::min(ahead.least_inactive, ahead.least);
   kept.renew(ahead.nodes, ahead.values);
-  std::vector<double> value_of(kernels_.cost.table().nodes.size(), kInfinity);
+  value_of_.resize(kernels_.cost.table().nodes.size(), kInfinity);
   for (std::size_t i = 0; i < ahead.nodes.size(); ++i) {
-    value_of[static_cast<std::size_t>(ahead.nodes[i])] = ahead.values[i];
+    value_of_[static_cast<std::size_t>(ahead.nodes[i])] = ahead.values[i];
   }
   const std::size_t size = bounds.active.size();
+  const std::vector<double> own_penalties = penalties.of(bounds.active);
   std::vector<double> unsure(size); // by how much a look could raise the bound
   std::vector<double> value(size);
   for (std::size_t i = 0; i < size; ++i) {
-    const KeptJoins::Least least = kept.least(i, value_of);
+    const KeptJoins::Least least = kept.least(i, value_of_);
     const double by_kept = std::min(ahead.least_inactive, least.value);
     bounds.bound[i] = std::min(by_kept, least.rest);
     bounds.partner[i] = least.node;
     unsure[i] = by_kept - bounds.bound[i];
-    value[i] = penalties[bounds.active[i]] + bounds.bound[i];
+    value[i] = own_penalties[i] + bounds.bound[i];
   }
-  const double most = (size == 0 ? 0.0 : std::ranges::min(value)) + within;
+  const double most = (size == 0 ? 0.0 : std::ranges::min(value)) +
+                      (needs_rough(size, ahead.nodes.size()) ? kRoughShare * within : within);
   const double tight_enough = kTightEnough * kernels_.cost.weights().pnt;
   Wanted wanted;
   for (std::size_t i = 0; i < size; ++i) {
@@ -149,21 +158,23 @@ void RelaxedRecursion::renew(StepBounds& bounds, KeptJoins& kept, const StepPena
       wanted.places.push_back(i);
     }
   }
-  if (wanted.places.empty()) {
-    return;
+  if (!wanted.places.empty()) {
+    sort_by_ends(wanted.places, bounds.active);
+    for (const std::size_t place : wanted.places) {
+      wanted.known.push_back(kept.joins(place, value_of_, ahead.least_inactive));
+    }
+    look(bounds, wanted, ahead, {side_, kernels_, ahead.nodes, ahead.values}, &kept, counts);
   }
-  sort_by_ends(wanted.places, bounds.active);
-  for (const std::size_t place : wanted.places) {
-    wanted.known.push_back(kept.joins(place, value_of, ahead.least_inactive));
+  for (const NodeIndex node : ahead.nodes) {
+    value_of_[static_cast<std::size_t>(node)] = kInfinity;
   }
-  look(bounds, wanted, ahead, {side_, kernels_, ahead.nodes, ahead.values}, &kept, counts);
 }
 
 void RelaxedRecursion::look(StepBounds& bounds, const Wanted& wanted, const Ahead& ahead,
                             const JoinFrontier& frontier, KeptJoins* kept,
                             JoinFrontier::Counts& counts) const {
-  const bool many = std::max(bounds.active.size(), ahead.nodes.size()) > kManyNodes;
-  if (!many) {
+  const bool rough = needs_rough(bounds.active.size(), ahead.nodes.size());
+  if (!rough) {
     kernels_.ensure(bounds.active);
     kernels_.ensure(ahead.nodes);
   }
@@ -172,7 +183,7 @@ void RelaxedRecursion::look(StepBounds& bounds, const Wanted& wanted, const Ahea
                          [&](std::size_t place) { return bounds.active[place]; });
   frontier.bound_joins(
       {.nodes = nodes,
-       .tightness = many ? JoinFrontier::Tightness::rough : JoinFrontier::Tightness::tight,
+       .tightness = rough ? JoinFrontier::Tightness::rough : JoinFrontier::Tightness::tight,
        .limits = wanted.limits,
        .known = wanted.known},
       counts, [&](std::size_t i, NodeIndex, const JoinFrontier::LeastJoins& least) {

@@ -63,11 +63,12 @@ public:
 
   // Has the bounds of the active nodes rise after those at the neighbouring step have risen, or
   // nodes have been taken away there. Where the least join of a node may be none of those kept,
-  // they are looked for again if its penalty + bound is at most `within` above the step's least;
+  // they are looked for again if its penalty + bound is at most `within` above the step's least
+  // (less where joins are rough);
   // other bounds hold, but need not be tight.
   void renew(StepBounds& bounds, KeptJoins& kept, const StepPenalties& penalties,
              const StepBounds& neighbour, const StepPenalties& neighbour_penalties, double within,
-             JoinFrontier::Counts& counts) const;
+             JoinFrontier::Counts& counts);
 
   // Bounds of these nodes (ascending) alone, from those of the neighbouring step; infinite for one
   // whose bound is above its limit (as many as nodes).
@@ -112,6 +113,7 @@ private:
 
   JoinKernels& kernels_;
   JoinFrontier::Side side_;
+  std::vector<double> value_of_; // what renew() keeps between calls: infinite for all nodes
 };
 
 } // namespace phonomime

@@ -121,16 +121,36 @@ StepPenalties StepPenalties::under(const SearchStep& step, double further) const
 }
 
 double StepPenalties::operator[](NodeIndex node) const {
-  if (!is_allowed(step_, node)) {
-    return kInfinity;
+  return is_allowed(step_, node) ? free_penalty(node) : kInfinity;
+}
+
+std::vector<double> StepPenalties::of(std::span<const NodeIndex> nodes) const {
+  std::vector<double> penalties;
+  penalties.reserve(nodes.size());
+  auto avoided = step_.avoided.begin();
+  for (const NodeIndex node : nodes) {
+    while (avoided != step_.avoided.end() && *avoided < node) {
+      ++avoided;
+    }
+    const bool blocked =
+        (avoided != step_.avoided.end() && *avoided == node) ||
+        (!step_.allowed.empty() && !std::ranges::binary_search(step_.allowed, node));
+    penalties.push_back(blocked ? kInfinity : free_penalty(node));
   }
+  return penalties;
+}
+
+double StepPenalties::free_penalty(NodeIndex node) const {
   const std::size_t c = classes_.class_of(node);
-  if (!free_->wish.asks) {
-    return free_->by_class[c];
+  if (free_->wish.asks && free_->fits[c].empty()) {
+    return free_->by_class[c] + fit_.fit(free_->wish, node, false).sum();
   }
-  const std::vector<double>& known = free_->fits[c];
-  return free_->by_class[c] + (known.empty() ? fit_.fit(free_->wish, node, false).sum()
-                                             : known[classes_.place_of(node)]);
+  return free_penalty(c, free_->wish.asks ? classes_.place_of(node) : 0);
+}
+
+double StepPenalties::free_penalty(std::size_t class_index, std::size_t place) const {
+  return free_->wish.asks ? free_->by_class[class_index] + free_->fits[class_index][place]
+                          : free_->by_class[class_index];
 }
 
 FitCost StepPenalties::fit_of(NodeIndex node) const {
@@ -154,8 +174,12 @@ std::vector<NodeIndex> StepPenalties::nodes_up_to(double most) const {
       append(classes_.nodes(c));
     } else {
       learn_fits(c);
-      std::ranges::copy_if(classes_.nodes(c), std::back_inserter(members),
-                           [&](NodeIndex node) { return (*this)[node] <= most; });
+      const std::span<const NodeIndex> nodes = classes_.nodes(c);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (free_penalty(c, i) <= most && is_allowed(step_, nodes[i])) {
+          members.push_back(nodes[i]);
+        }
+      }
     }
   }
   std::ranges::sort(members);
@@ -169,9 +193,11 @@ double StepPenalties::least_beyond(double most) const {
       least = std::min(least, free_->by_class[c]);
     } else if (free_->wish.asks && most < kInfinity) {
       learn_fits(c);
-      for (const NodeIndex node : classes_.nodes(c)) {
-        if (const double penalty = (*this)[node]; penalty > most) {
-          least = std::min(least, penalty);
+      const std::span<const NodeIndex> nodes = classes_.nodes(c);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const double penalty = free_penalty(c, i);
+        if (penalty > most && penalty < least && is_allowed(step_, nodes[i])) {
+          least = penalty;
         }
       }
     }

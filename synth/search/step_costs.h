@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace phonomime {
@@ -36,6 +37,7 @@ public:
   StepPenalties under(const SearchStep& step, double further = 0.0) const;
 
   double operator[](NodeIndex node) const;
+  std::vector<double> of(std::span<const NodeIndex> nodes) const; // ascending
   FitCost fit_of(NodeIndex node) const;
   double least() const { return least_; } // of the nodes that are not blocked
 
@@ -66,6 +68,10 @@ private:
   StepPenalties(const NodeClasses& classes, const SearchStep& step, ContextFit& fit,
                 std::shared_ptr<Free> free, double pnt);
   void learn_fits(std::size_t class_index) const;
+  // Of a node that is not blocked.
+  double free_penalty(NodeIndex node) const;
+  // Of one of a class, by its place there; fits are learnt already where they count.
+  double free_penalty(std::size_t class_index, std::size_t place) const;
 
   const NodeClasses& classes_;
   const SearchStep& step_;
