@@ -73,9 +73,14 @@ SearchResult exact_search(SearchSpace& space, std::span<const SearchStep> steps,
   const std::vector<StepBounds> to_go = bounds(budget);
   const LatticeInput input{steps, penalties, to_go, space.kernels, progress};
   const Lattice lattice = exact_lattice(input, budget, counts);
-  result.path = best_path(input, lattice);
+  if (!lattice.back().nodes.empty()) {
+    result.path = best_path(input, lattice);
+  }
+  if (result.path.cost > upper_bound) { // by rounding; a better path may have been left out
+    result.path = {};
+  }
   result.counts.states = state_count(lattice);
-  if (options.runners_up > 0) {
+  if (options.runners_up > 0 && !result.path.nodes.empty()) {
     result.runners_up = exact_runners_up(space, steps, penalties, result.path, bounds,
                                          options.runners_up, progress, counts);
   }

@@ -58,7 +58,7 @@ using BoundsWithin = std::function<std::vector<StepBounds>(double budget)>;
 
 // The forward pass of Algorithm 1 over the states that bounds leave possible, its best path, and
 // the runners-up where they are asked for. `upper_bound`: of the optimum; any will do, a near one
-// is fast. Adds to `counts`.
+// is fast. Where the optimum is above it the path is empty. Adds to `counts`.
 SearchResult exact_search(SearchSpace& space, std::span<const SearchStep> steps,
                           std::span<const StepPenalties> penalties, double upper_bound,
                           const BoundsWithin& bounds, const SearchOptions& options,

@@ -102,6 +102,9 @@ Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Co
     ensure_nodes(input, candidates);
     lattice.push_back(t == 0 ? first_states(candidates)
                              : next_states(input, lattice.back(), candidates, budget, counts));
+    if (lattice.back().nodes.empty()) {
+      break;
+    }
   }
   return lattice;
 }

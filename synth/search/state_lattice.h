@@ -33,7 +33,7 @@ struct LatticeInput {
 };
 
 // The forward pass over all states from which a path of cost <= budget may be: exact costs for
-// every path up to the budget.
+// every path up to the budget. Ends with a step without states where there is none.
 Lattice exact_lattice(const LatticeInput& input, double budget, JoinFrontier::Counts& counts);
 
 // The exact cost of a path, summed as E4 is: an upper bound of the optimum.

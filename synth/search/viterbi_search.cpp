@@ -8,6 +8,7 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace phonomime {
 
@@ -23,9 +24,9 @@ constexpr double kStillNear = 0.5;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // In PNT. Renewed bounds are made tight that far above the least of a step, then further, until
-// they say to `kTight` what the best path costs; rough joins at pauses leave some of that.
-constexpr std::array<double, 3> kWithin = {1.0, 2.0, kInfinity};
-constexpr double kTight = 1.0;
+// the best path costs at most `kReach` more than they say; rough joins at pauses leave some of it.
+constexpr std::array<double, 3> kWithin = {0.7, 2.0, kInfinity};
+constexpr double kReach = 1.25;
 
 // Bounds of all that follows each step, for one path after another.
 class BoundsToGo {
@@ -166,20 +167,23 @@ DisjointPaths ViterbiSearch::solve_disjoint(std::span<const SearchStep> steps, i
     for (std::size_t t = 0; t < steps.size(); ++t) {
       penalties.push_back(free[t].under(rest[t], dearer / static_cast<double>(steps.size())));
     }
-    CostRange cost;
+    NodePath path;
     if (std::ranges::equal(bounded, rest, avoids_no_more)) {
+      const double pnt = space_.weights.pnt;
       for (const double within : kWithin) {
-        to_go.renew(penalties, within == kInfinity ? within : within * space_.weights.pnt, counts);
-        cost = range(penalties);
-        if (cost.upper - cost.lower <= kTight * space_.weights.pnt) {
+        to_go.renew(penalties, within == kInfinity ? within : within * pnt, counts);
+        const CostRange cost = range(penalties);
+        const double reach = within == kInfinity ? cost.upper : cost.lower + kReach * pnt;
+        path = search(rest, penalties, std::min(cost.upper, reach), 0).path;
+        if (!path.nodes.empty()) {
           break;
         }
       }
     } else {
       to_go.make(penalties, counts);
-      cost = range(penalties);
+      path = search(rest, penalties, range(penalties).upper, 0).path;
     }
-    paths.others.push_back(search(rest, penalties, cost.upper, 0).path);
+    paths.others.push_back(std::move(path));
     used.insert(used.end(), paths.others.back().nodes.begin(), paths.others.back().nodes.end());
     bounded = std::move(rest);
   }

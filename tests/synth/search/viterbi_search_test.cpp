@@ -3,6 +3,8 @@
 #include "tests/synth/search/random_tables.h"
 
 #include "db/types/errors.h"
+#include "synth/search/exact_search.h"
+#include "synth/search/relaxed_bounds.h"
 #include "synth/search/step_costs.h"
 #include "synth/search/viterbi_search.h"
 
@@ -250,6 +252,57 @@ TEST(ViterbiSearch, looks_at_the_same_things_with_every_number_of_threads) {
   EXPECT_EQ(one.counts.bounds, four.counts.bounds);
   EXPECT_EQ(one.counts.states, four.counts.states);
   EXPECT_EQ(one.path.nodes, four.path.nodes);
+}
+
+TEST(ViterbiSearch, passes_over_states_find_the_optimum_up_to_their_bound_and_nothing_above) {
+  int missed = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Draw draw(seed);
+    const MotionTable table = test::random_table({}, draw);
+    const CostWeights weights = test::random_weights(draw);
+    const std::vector<SearchStep> steps = test::random_steps(table, 1 + draw.below(8), draw);
+    const NodePath judged = PlainRecursion(table, weights).solve(steps);
+    SearchSpace space(table, weights);
+    const std::vector<StepPenalties> penalties = space.penalties(steps);
+    const RelaxedRecursion recursion(space.kernels, JoinFrontier::Side::later);
+    JoinFrontier::Counts counts;
+    std::vector<StepBounds> to_go(steps.size());
+    for (std::size_t t = steps.size(); t-- > 0;) {
+      to_go[t] = t + 1 == steps.size()
+                     ? recursion.border(penalties[t])
+                     : recursion.next(penalties[t], to_go[t + 1], penalties[t + 1], counts);
+    }
+    const auto found = [&](double upper_bound) {
+      return exact_search(space, steps, penalties, upper_bound, [&](double) { return to_go; }, {},
+                          {}, {})
+          .path;
+    };
+    EXPECT_EQ(found(judged.cost).nodes, judged.nodes);
+    for (const double share : {0.5, 1.0 - 1e-6, 1.0 - 1e-12}) {
+      if (judged.cost * share < judged.cost) {
+        EXPECT_TRUE(found(judged.cost * share).nodes.empty()) << share;
+        ++missed;
+      }
+    }
+  }
+  EXPECT_GT(missed, 60);
+}
+
+TEST(StepPenalties, of_several_nodes_are_those_of_each) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Draw draw(seed);
+    const MotionTable table = test::random_table({}, draw);
+    const std::vector<SearchStep> steps = test::random_steps(table, 8, draw, 0.3, 0.5);
+    SearchSpace space(table, test::random_weights(draw));
+    const std::vector<NodeIndex> nodes = test::all_nodes(table);
+    for (const StepPenalties& penalties : space.penalties(steps)) {
+      const std::vector<double> several = penalties.of(nodes);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        ASSERT_EQ(several[i], penalties[nodes[i]]) << "seed " << seed;
+      }
+    }
+  }
 }
 
 TEST(ViterbiSearch, stops_when_asked) {
