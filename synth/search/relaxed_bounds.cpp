@@ -24,9 +24,6 @@ bool needs_rough(std::size_t nodes, std::size_t neighbours) {
 // In PNT. What a look at joins could raise a bound by is not worth it below.
 constexpr double kTightEnough = 0.03;
 
-// Where bounds are rough, the nodes of a step differ less by them.
-constexpr double kRoughShare = 0.6;
-
 // So many nodes of a step, or a few more, tell about how little the least of all of them has.
 constexpr std::size_t kSample = 64;
 
@@ -149,8 +146,7 @@ void RelaxedRecursion::renew(StepBounds& bounds, KeptJoins& kept, const StepPena
     unsure[i] = by_kept - bounds.bound[i];
     value[i] = own_penalties[i] + bounds.bound[i];
   }
-  const double most = (size == 0 ? 0.0 : std::ranges::min(value)) +
-                      (needs_rough(size, ahead.nodes.size()) ? kRoughShare * within : within);
+  const double most = (size == 0 ? 0.0 : std::ranges::min(value)) + within;
   const double tight_enough = kTightEnough * kernels_.cost.weights().pnt;
   Wanted wanted;
   for (std::size_t i = 0; i < size; ++i) {

@@ -63,8 +63,7 @@ public:
 
   // Has the bounds of the active nodes rise after those at the neighbouring step have risen, or
   // nodes have been taken away there. Where the least join of a node may be none of those kept,
-  // they are looked for again if its penalty + bound is at most `within` above the step's least
-  // (less where joins are rough);
+  // they are looked for again if its penalty + bound is at most `within` above the step's least;
   // other bounds hold, but need not be tight.
   void renew(StepBounds& bounds, KeptJoins& kept, const StepPenalties& penalties,
              const StepBounds& neighbour, const StepPenalties& neighbour_penalties, double within,

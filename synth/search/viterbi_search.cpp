@@ -25,7 +25,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // In PNT. Renewed bounds are made tight that far above the least of a step, then further, until
 // the best path costs at most `kReach` more than they say; rough joins at pauses leave some of it.
-constexpr std::array<double, 3> kWithin = {0.7, 2.0, kInfinity};
+constexpr std::array<double, 3> kWithin = {1.0, 2.0, kInfinity};
 constexpr double kReach = 1.25;
 
 // Bounds of all that follows each step, for one path after another.
