@@ -114,15 +114,23 @@ std::string explain_result(std::string_view json_text, std::string_view where) {
   }
   if (result.contains("style")) {
     const nlohmann::json& style = result["style"];
-    text += fmt::format("style: changed by {:.2f} (root mean square, mm a marker or weight); {} of "
-                        "{} contacts of the lips held, {} could not be\n",
-                        style["change"].get<double>(), style["contacts_moved"].get<int>(),
-                        style["contacts"].get<int>(), style["contacts_left"].get<int>());
+    text += style_to_text({.contacts = style["contacts"].get<int>(),
+                           .contacts_moved = style["contacts_moved"].get<int>(),
+                           .contacts_left = style["contacts_left"].get<int>(),
+                           .change = style["change"].get<double>()}) +
+            "\n";
   }
   for (const nlohmann::json& warning : result["warnings"]) {
     text += "warning: " + warning.get<std::string>() + "\n";
   }
   return text;
+}
+
+std::string style_to_text(const StyleOutcome& style) {
+  return fmt::format(
+      "style: changed by {:.2f} (root mean square, mm a marker or weight); contacts of "
+      "the lips: {}, of which {} had to be mended, {} could not be",
+      style.change, style.contacts, style.contacts_moved, style.contacts_left);
 }
 
 } // namespace phonomime

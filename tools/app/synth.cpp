@@ -2,6 +2,7 @@
 #include "tools/app/synth.h"
 
 #include "db/store/motion_database.h"
+#include "synth/pipeline/explain.h"
 #include "synth/pipeline/result_json.h"
 #include "synth/pipeline/synthesize.h"
 #include "tools/app/style_plan.h"
@@ -56,6 +57,9 @@ SynthReport run_synth(const SynthOptions& options, SynthStock& stock, SearchKeep
   report.result_json = result_to_json(table, result).dump(1) + "\n";
   report.written = outputs.write(result, report.result_json);
   report.warnings = result.warnings;
+  if (result.style) {
+    report.notes.push_back(style_to_text(*result.style));
+  }
   report.duration_s = result.end_s;
   report.cost = result.cost;
   count_joins(result, report);

@@ -76,10 +76,14 @@ class StyleTest(cli.CliTest):
         self.database.write_bytes(self.made)
         self.transcript = cli.write_transcript(self.folder / "hello.lab", SPOKEN)
 
+    def said(self, name, *arguments, speaker="ann"):
+        """What synth prints, that writes `name`."""
+        return cli.run_well("synth", "--db", self.database, "--speaker", speaker, self.transcript,
+                            "-o", self.folder / name, *arguments)
+
     def synth(self, name, *arguments, speaker="ann"):
-        path = self.folder / name
-        cli.run_well("synth", "--db", self.database, "--speaker", speaker, self.transcript, "-o", path, *arguments)
-        return path
+        self.said(name, *arguments, speaker=speaker)
+        return self.folder / name
 
     def synth_json(self, *arguments, speaker="ann"):
         return cli.run_json("synth", "--db", self.database, "--speaker", speaker, self.transcript, *arguments)
@@ -221,10 +225,16 @@ class StyleTest(cli.CliTest):
         plain = self.synth_json("--emotion", "happiness")
         self.assertNotIn("style", plain)
         self.assertNotIn("asked", plain["path"][1])
-        path = self.synth("said.json", "--emotion", "happiness:0.5")
-        text = cli.run_well("explain", path)
-        self.assertIn("happiness:0.5", text)
-        self.assertIn("style: changed by", text)
+        self.assertNotIn("style:", self.said("plain.json", "--emotion", "happiness"))
+        words = ("--emotion", "happiness:0.6+anger:0.3")
+        told = self.said("said.json", *words)
+        style = result["style"]
+        line = (f"style: changed by {style['change']:.2f} (root mean square, mm a marker or weight); contacts of the "
+                f"lips: {style['contacts']}, of which {style['contacts_moved']} had to be mended, 0 could not be\n")
+        self.assertIn(line, told)
+        text = cli.run_well("explain", self.folder / "said.json")
+        self.assertIn("happiness:0.6+anger:0.3", text)
+        self.assertIn(line, text)
 
     def test_a_track_glides(self):
         """No jump of the corners from frame to frame where the emotion changes."""
