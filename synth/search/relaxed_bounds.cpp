@@ -17,9 +17,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Where more nodes than this are active (inner pauses), full poses for all of them would cost more
 // than they save.
 constexpr std::size_t kManyNodes = 4096;
-bool needs_rough(std::size_t nodes, std::size_t neighbours) {
-  return std::max(nodes, neighbours) > kManyNodes;
-}
 
 // In PNT. What a look at joins could raise a bound by is not worth it below.
 constexpr double kTightEnough = 0.03;
@@ -169,7 +166,7 @@ void RelaxedRecursion::renew(StepBounds& bounds, KeptJoins& kept, const StepPena
 void RelaxedRecursion::look(StepBounds& bounds, const Wanted& wanted, const Ahead& ahead,
                             const JoinFrontier& frontier, KeptJoins* kept,
                             JoinFrontier::Counts& counts) const {
-  const bool rough = needs_rough(bounds.active.size(), ahead.nodes.size());
+  const bool rough = std::max(bounds.active.size(), ahead.nodes.size()) > kManyNodes;
   if (!rough) {
     kernels_.ensure(bounds.active);
     kernels_.ensure(ahead.nodes);
