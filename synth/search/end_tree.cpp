@@ -122,7 +122,7 @@ unsigned bound_boxes(const ChildQuery& query, const float* low, const float* hig
 } // namespace
 
 EndTree::EndTree(const JoinSketch& sketch, const MotionTable& table, NodeEnd which,
-                 std::span<const Entry> entries)
+                 std::span<const NodeIndex> entries)
     : sketch_(&sketch) {
   if (entries.empty()) {
     return;
@@ -133,25 +133,34 @@ EndTree::EndTree(const JoinSketch& sketch, const MotionTable& table, NodeEnd whi
   }
 }
 
+void EndTree::set_values(std::span<const double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    levels_[0].value[i] = float_below(values[i]);
+  }
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    const std::vector<float>& below = levels_[level - 1].value;
+    for (std::size_t i = 0; i < below.size() / kFan; ++i) {
+      levels_[level].value[i] = *std::min_element(&below[i * kFan], &below[i * kFan] + kFan);
+    }
+  }
+}
+
 EndTree::Level EndTree::points(const MotionTable& table, NodeEnd which,
-                               std::span<const Entry> entries) const {
+                               std::span<const NodeIndex> entries) const {
   const std::size_t groups = (entries.size() + kFan - 1) / kFan;
   Level level;
   level.low.resize(groups * kFeatures * kFan);
-  level.value.assign(groups * kFan, std::numeric_limits<float>::infinity());
+  level.value.assign(groups * kFan, kNothing);
   level.viseme.assign(groups * kFan, kMixed);
   for (std::size_t i = 0; i < groups * kFan; ++i) {
-    const Entry& entry =
-        entries[std::min(i, entries.size() - 1)]; // the last group repeats the last
-    const float* end = sketch_->end(which, entry.node);
+    // The last group repeats the last.
+    const NodeIndex node = entries[std::min(i, entries.size() - 1)];
+    const float* end = sketch_->end(which, node);
     float* place = level.low.data() + i / kFan * kFeatures * kFan + i % kFan;
     for (std::size_t f = 0; f < kFeatures; ++f) {
       place[f * kFan] = end[f];
     }
-    level.viseme[i] = join_viseme(table, which, entry.node);
-    if (i < entries.size()) {
-      level.value[i] = float_below(entry.value);
-    }
+    level.viseme[i] = join_viseme(table, which, node);
   }
   return level;
 }
@@ -163,7 +172,7 @@ EndTree::Level EndTree::boxes(const Level& below, bool below_is_points) {
   Level level;
   level.low.resize(groups * kFeatures * kFan);
   level.high.resize(groups * kFeatures * kFan);
-  level.value.assign(groups * kFan, std::numeric_limits<float>::infinity());
+  level.value.assign(groups * kFan, kNothing);
   level.viseme.assign(groups * kFan, kMixed);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t place = i / kFan * kFeatures * kFan + i % kFan;
@@ -173,7 +182,6 @@ EndTree::Level EndTree::boxes(const Level& below, bool below_is_points) {
       level.high[place + f * kFan] = *std::max_element(&below_high[from], &below_high[from] + kFan);
     }
     const auto children = std::span(below.viseme).subspan(i * kFan, kFan);
-    level.value[i] = *std::min_element(&below.value[i * kFan], &below.value[i * kFan] + kFan);
     level.viseme[i] =
         std::ranges::all_of(children, [&](std::int32_t v) { return v == children[0]; })
             ? children[0]

@@ -24,20 +24,18 @@ inline float float_above(double number) {
   return -float_below(-number);
 }
 
-// Ends of motion nodes with the cost of all that lies behind each, in a tree of boxes, eight
-// children a box: finds those whose cost + join may be within a limit, nearest first, at a fraction
-// of a look at all of them.
+// Ends of motion nodes, its entries, with the cost of all that lies behind each, in a tree of
+// boxes, eight children a box: finds those whose cost + join may be within a limit, nearest first,
+// at a fraction of a look at all of them.
 class EndTree {
 public:
-  struct Entry {
-    NodeIndex node = kNoNode;
-    double value = 0.0; // finite
-  };
-
   EndTree() = default;
-  // Entries in the order of JoinSketch::order(which).
+  // Of these nodes, its entries, in the order of JoinSketch::order(which). All values are infinite.
   EndTree(const JoinSketch& sketch, const MotionTable& table, NodeEnd which,
-          std::span<const Entry> entries);
+          std::span<const NodeIndex> entries);
+
+  // One an entry. Those of an infinite value are never within a limit.
+  void set_values(std::span<const double> values);
 
   // Calls visit(entry index, its join viseme, its bound) for every entry whose bound is within
   // limit(), in an order that lowers the limit soon; limit() may fall from call to call. The bound
@@ -71,7 +69,7 @@ private:
     std::vector<std::int32_t> viseme; // -2 where they differ inside
   };
 
-  Level points(const MotionTable& table, NodeEnd which, std::span<const Entry> entries) const;
+  Level points(const MotionTable& table, NodeEnd which, std::span<const NodeIndex> entries) const;
   static Level boxes(const Level& below, bool below_is_points);
   // Returns by bits which of the eight children of a group may be within `most`; where there is
   // any, with the bounds of all of them.

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "synth/search/boundary_poses.h"
+#include "synth/search/linear_features.h"
 #include "synth/search/search_types.h"
 
+#include <cstddef>
 #include <span>
 
 namespace phonomime {
@@ -13,7 +15,10 @@ namespace phonomime {
 // (lane0 + lane1) + (lane2 + lane3): the same bytes with every instruction set.
 class JoinCost {
 public:
-  JoinCost(const MotionTable& table, const CostWeights& weights);
+  JoinCost(const MotionTable& table, const CostWeights& weights)
+      : JoinCost(table, weights, largest_frame_norm(table)) {}
+  // `largest_frame`: as largest_frame_norm().
+  JoinCost(const MotionTable& table, const CostWeights& weights, double largest_frame);
 
   // Must have been called for every node of a pair before transition() is.
   void ensure(std::span<const NodeIndex> nodes) { poses_.ensure(nodes); }
@@ -28,8 +33,9 @@ public:
   double gaps(NodeIndex from, NodeIndex to) const;
   double smoothing(NodeIndex from, NodeIndex to) const;
 
-  // smoothing() where that is at most `limit`; else something between the two.
-  double smoothing_up_to(double limit, NodeIndex from, NodeIndex to) const;
+  // At most smoothing(), by about 1e-5 of it and a little, in half its time; where it is above
+  // `limit`, something above about that limit.
+  double smoothing_floor(double limit, NodeIndex from, NodeIndex to) const;
 
   // At most gaps(), by about 1e-5 of it, in a third of its time.
   double gaps_floor(NodeIndex from, NodeIndex to) const;
@@ -46,10 +52,12 @@ public:
   const MotionTable& table() const { return table_; }
 
 private:
-  double summed_smoothing(NodeIndex from, NodeIndex target, double limit) const;
+  template <typename Number, std::size_t kLanes, typename Kernel>
+  Number summed_smoothing(NodeIndex from, NodeIndex target, const Kernel& kernel) const;
 
   const MotionTable& table_;
   CostWeights weights_;
+  double blend_margin_;
   BoundaryPoses poses_;
 };
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,7 +34,7 @@ struct JoinKernels {
 private:
   JoinKernels(const MotionTable& table, const CostWeights& weights, double largest_frame)
       : sketch(table, weights, largest_frame), bound(table, weights, largest_frame),
-        cost(table, weights) {}
+        cost(table, weights, largest_frame) {}
 };
 
 // The joins between one step's candidates and single nodes of the neighbouring step.
@@ -52,9 +53,27 @@ public:
     later    // candidates are ahead: their first ends meet the last end of an earlier node
   };
 
-  // `nodes` ascending, with `values`; nodes of infinite value are left out.
+  // `nodes` ascending; all of infinite value.
+  JoinFrontier(Side side, const JoinKernels& kernels, std::span<const NodeIndex> nodes);
   JoinFrontier(Side side, const JoinKernels& kernels, std::span<const NodeIndex> nodes,
-               std::span<const double> values);
+               std::vector<double> values)
+      : JoinFrontier(side, kernels, nodes) {
+    set_values(std::move(values));
+  }
+
+  // One a node. Those of an infinite value have no joins.
+  void set_values(std::vector<double> values);
+
+  // A candidate, as its place among all.
+  struct Candidate {
+    std::size_t place = 0;
+    NodeIndex node = kNoNode;
+    double value = kInfinity;
+  };
+
+  const std::vector<NodeIndex>& nodes() const { return nodes_; }
+  const std::vector<double>& values() const { return values_; }
+  Candidate candidate(std::size_t place) const { return {place, nodes_[place], values_[place]}; }
 
   struct Best {
     double value = std::numeric_limits<double>::infinity();
@@ -69,8 +88,9 @@ public:
   // The joins of one node that are least, by lower bounds.
   class LeastJoins {
   public:
-    static constexpr std::size_t kMost = 4;
+    static constexpr std::size_t kMost = 2;
     struct Join {
+      std::size_t place = 0;    // the candidate's
       NodeIndex node = kNoNode; // the candidate
       double join = kInfinity;  // at most TC
       double value = kInfinity; // the candidate's + join
@@ -87,8 +107,8 @@ public:
     double value() const { return size_ == 0 ? kInfinity : joins_[0].value; }
     NodeIndex node() const { return joins_[0].node; }
 
-    void consider(const EndTree::Entry& entry, double join) {
-      const double value = entry.value + join;
+    void consider(const Candidate& candidate, double join) {
+      const double value = candidate.value + join;
       if (value > limit_ || (size_ == most_ && value == limit_)) {
         return;
       }
@@ -96,7 +116,7 @@ public:
       for (; place > 0 && joins_[place - 1].value > value; --place) {
         joins_[place] = joins_[place - 1];
       }
-      joins_[place] = {entry.node, join, value};
+      joins_[place] = {candidate.place, candidate.node, join, value};
       if (size_ == most_) {
         limit_ = std::min(limit_, joins_[size_ - 1].value);
       }
@@ -132,8 +152,6 @@ public:
   template <typename Found>
   void bound_joins(const BoundOptions& options, Counts& counts, const Found& found) const;
 
-  double least_value() const { return least_value_; }
-
 private:
   // Calls known(candidate, TC) where rule 1 or 4 says what a join with `node` costs, cheapest first
   // until it returns false, then join(candidate, penalty of rule 3, bound) for every other
@@ -150,8 +168,8 @@ private:
     return side_ == Side::earlier ? std::pair(candidate, node) : std::pair(node, candidate);
   }
   NodeIndex captured_partner(NodeIndex node) const;
-  // The candidate that is this node, or null.
-  const EndTree::Entry* find(NodeIndex node) const;
+  // The candidate that is this node, if there is one of a finite value.
+  std::optional<Candidate> find(NodeIndex node) const;
   const MotionTable& table() const { return kernels_.cost.table(); }
   const MotionNode& info(NodeIndex node) const {
     return table().nodes[static_cast<std::size_t>(node)];
@@ -159,13 +177,13 @@ private:
 
   Side side_;
   const JoinKernels& kernels_;
-  double least_value_ = kInfinity;
-  std::vector<EndTree::Entry> candidates_; // in the tree's order
+  std::vector<NodeIndex> nodes_; // ascending; here and below candidates are places in it
+  std::vector<double> values_;
   // Those whose joins rule 4 may price, by (value, node): all of them on the earlier side, those
   // without a predecessor on the later one.
-  std::vector<EndTree::Entry> starts_;
+  std::vector<std::size_t> starts_;
+  std::vector<std::size_t> in_tree_; // the others, and all on the earlier side: its entries
   EndTree tree_;
-  std::vector<EndTree::Entry> by_node_; // all candidates
 };
 
 // Calls work(i, counts) for i in [0, size) over threads, `chunk` at a time, and adds up the counts.

@@ -3,48 +3,51 @@
 
 #include "synth/search/join_frontier.h"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace phonomime {
 
-// The least joins of nodes with those of the neighbouring step, several of each node and a bound of
-// all others: what the least value + TC is after values have risen takes a few additions then, and
-// no look at the others (docs/search_bounds.md).
+// The least joins of a step's nodes with those of the neighbouring step, some of each node and a
+// bound of all others: what the least value + TC is after values have risen takes a few additions
+// then, and no look at the others (docs/search_bounds.md).
 class KeptJoins {
 public:
-  // For `nodes` nodes, by the values of these neighbours (ascending). Nothing is kept yet.
-  void reset(std::size_t nodes, std::span<const NodeIndex> neighbours,
-             std::span<const double> values);
+  // For `nodes` nodes. Nothing is known yet.
+  void reset(std::size_t nodes);
 
-  // Of the node at `place`, found with the present values. Different places may be filled at once.
+  // Of the node at `place`. Different places may be filled at once.
   void keep(std::size_t place, const JoinFrontier::LeastJoins& least);
 
-  // Takes over the neighbours' present values. No value may have fallen; there may be other
-  // neighbours than before.
-  void renew(std::span<const NodeIndex> neighbours, std::span<const double> values);
+  // After the values of the frontier's candidates have risen.
+  void renew(std::span<const double> before, std::span<const double> now);
 
   struct Least {
-    double value = 0.0;       // at most value + TC of any neighbour that is kept
-    NodeIndex node = kNoNode; // whose that is
-    double rest = 0.0;        // at most value + TC of any neighbour that is not
+    double value = JoinFrontier::kInfinity; // at most value + TC of any candidate that is kept
+    NodeIndex node = kNoNode;               // whose that is
+    double rest = 0.0;                      // at most value + TC of any candidate that is not
   };
-  // `value_of`: the present values per node of the table, infinite for those that are no neighbour.
-  Least least(std::size_t place, std::span<const double> value_of) const;
+  // By the frontier's values now, which may have risen since the look.
+  Least least(std::size_t place, const JoinFrontier& frontier) const;
 
-  // The joins kept of a node by the present values, up to `limit`.
-  JoinFrontier::LeastJoins joins(std::size_t place, std::span<const double> value_of,
+  // The joins kept of a node, by the frontier's values now, up to `limit`.
+  JoinFrontier::LeastJoins joins(std::size_t place, const JoinFrontier& frontier,
                                  double limit) const;
 
 private:
   static constexpr std::size_t kEach = JoinFrontier::LeastJoins::kMost;
+  static constexpr float kNoJoin = std::numeric_limits<float>::infinity();
 
-  std::vector<NodeIndex> neighbours_;
-  std::vector<double> values_;   // of the neighbours
-  std::vector<NodeIndex> nodes_; // kEach per node
-  std::vector<float> joins_;     // of those, at most TC; infinite where there are not so many
-  std::vector<double> rest_;     // per node
+  struct Node {
+    double rest = 0.0;
+    std::array<std::uint32_t, kEach> candidates = {}; // their places in the frontier
+    std::array<float, kEach> joins;                   // at most TC; kNoJoin where there is none
+  };
+  std::vector<Node> nodes_;
 };
 
 } // namespace phonomime

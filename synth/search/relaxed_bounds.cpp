@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace phonomime {
@@ -33,19 +34,15 @@ double StepBounds::operator[](NodeIndex node) const {
              : inactive_bound;
 }
 
-RelaxedRecursion::Ahead::Ahead(const StepBounds& neighbour, const StepPenalties& penalties)
-    : nodes(neighbour.active), least(kInfinity),
-      least_inactive(penalties.least_beyond(neighbour.active_penalty) + neighbour.inactive_bound) {
-  values = penalties.of(nodes);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    values[i] += neighbour.bound[i];
+void NeighbourStep::see(const StepBounds& bounds, const StepPenalties& penalties) {
+  std::vector<double> values = penalties.of(bounds.active);
+  least = kInfinity;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] += bounds.bound[i];
     least = std::min(least, values[i]);
   }
-}
-
-JoinFrontier RelaxedRecursion::frontier(const StepBounds& neighbour,
-                                        const StepPenalties& penalties) const {
-  return {side_, kernels_, neighbour.active, Ahead(neighbour, penalties).values};
+  least_inactive = penalties.least_beyond(bounds.active_penalty) + bounds.inactive_bound;
+  frontier.set_values(std::move(values));
 }
 
 StepBounds RelaxedRecursion::border(const StepPenalties& penalties) const {
@@ -57,13 +54,40 @@ StepBounds RelaxedRecursion::border(const StepPenalties& penalties) const {
   return bounds;
 }
 
-StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBounds& neighbour,
-                                  const StepPenalties& neighbour_penalties,
-                                  JoinFrontier::Counts& counts, KeptJoins* kept,
-                                  double window) const {
-  const Ahead ahead(neighbour, neighbour_penalties);
-  StepBounds bounds = unknown_bounds(penalties.nodes_up_to(penalties.near()), ahead, kept);
-  bounds.active_penalty = penalties.near();
+NeighbourStep RelaxedRecursion::neighbour(const StepBounds& bounds,
+                                          const StepPenalties& penalties) const {
+  NeighbourStep neighbour{.frontier = {side_, kernels_, bounds.active}};
+  neighbour.see(bounds, penalties);
+  return neighbour;
+}
+
+std::vector<NeighbourStep> RelaxedRecursion::neighbours(std::span<const StepBounds> steps) const {
+  std::vector<std::optional<JoinFrontier>> frontiers(steps.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    frontiers[t].emplace(side_, kernels_, steps[t].active);
+  }
+  std::vector<NeighbourStep> neighbours;
+  for (std::optional<JoinFrontier>& frontier : frontiers) {
+    neighbours.push_back({.frontier = std::move(*frontier)});
+  }
+  return neighbours;
+}
+
+StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const NeighbourStep& neighbour,
+                                  JoinFrontier::Counts& counts) const {
+  StepBounds bounds = border(penalties);
+  bound(bounds, penalties, neighbour, counts);
+  return bounds;
+}
+
+void RelaxedRecursion::bound(StepBounds& bounds, const StepPenalties& penalties,
+                             const NeighbourStep& neighbour, JoinFrontier::Counts& counts,
+                             double window, KeptJoins* kept) const {
+  bounds.inactive_bound = std::min(neighbour.least_inactive, neighbour.least);
+  if (kept != nullptr) {
+    kept->reset(bounds.active.size());
+  }
   const std::vector<double> own_penalties = penalties.of(bounds.active);
   const std::vector<std::size_t> places = all_places(bounds.active);
   Wanted first; // by which the least of the step is told
@@ -73,108 +97,91 @@ StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const StepBoun
   for (std::size_t i = 0; i < places.size(); ++i) {
     (i % stride == stride / 2 ? first : rest).places.push_back(places[i]);
   }
-  const JoinFrontier frontier(side_, kernels_, ahead.nodes, ahead.values);
-  first.limits.assign(first.places.size(), ahead.least_inactive);
-  look(bounds, first, ahead, frontier, kept, counts);
+  first.limits.assign(first.places.size(), neighbour.least_inactive);
+  look(bounds, first, neighbour, kept, counts);
   double least = kInfinity;
   for (const std::size_t place : first.places) {
     least = std::min(least, own_penalties[place] + bounds.bound[place]);
   }
   for (const std::size_t place : rest.places) {
     const double limit = least + window - own_penalties[place];
-    rest.limits.push_back(std::min(ahead.least_inactive, std::max(ahead.least, limit)));
+    rest.limits.push_back(std::min(neighbour.least_inactive, std::max(neighbour.least, limit)));
   }
-  look(bounds, rest, ahead, frontier, kept, counts);
-  return bounds;
+  look(bounds, rest, neighbour, kept, counts);
 }
 
 StepBounds RelaxedRecursion::bounds_of(std::vector<NodeIndex> active,
-                                       std::span<const double> limits, const StepBounds& neighbour,
-                                       const StepPenalties& neighbour_penalties,
+                                       std::span<const double> limits,
+                                       const NeighbourStep& neighbour,
                                        JoinFrontier::Counts& counts) const {
-  const Ahead ahead(neighbour, neighbour_penalties);
-  StepBounds bounds = unknown_bounds(std::move(active), ahead, nullptr);
-  Wanted wanted;
-  wanted.places = all_places(bounds.active);
-  for (const std::size_t place : wanted.places) {
-    wanted.limits.push_back(std::min(limits[place], ahead.least_inactive));
-  }
-  look(bounds, wanted, ahead, {side_, kernels_, ahead.nodes, ahead.values}, nullptr, counts);
-  for (std::size_t place = 0; place < bounds.active.size(); ++place) {
-    if (bounds.partner[place] == kNoNode) {
-      bounds.bound[place] = ahead.least_inactive;
-    }
-  }
-  return bounds;
-}
-
-StepBounds RelaxedRecursion::unknown_bounds(std::vector<NodeIndex> active, const Ahead& ahead,
-                                            KeptJoins* kept) {
   StepBounds bounds;
   bounds.active = std::move(active);
   bounds.bound.resize(bounds.active.size());
   bounds.partner.assign(bounds.active.size(), kNoNode);
-  bounds.inactive_bound = std::min(ahead.least_inactive, ahead.least);
-  if (kept != nullptr) {
-    kept->reset(bounds.active.size(), ahead.nodes, ahead.values);
+  bounds.inactive_bound = std::min(neighbour.least_inactive, neighbour.least);
+  Wanted wanted;
+  wanted.places = all_places(bounds.active);
+  for (const std::size_t place : wanted.places) {
+    wanted.limits.push_back(std::min(limits[place], neighbour.least_inactive));
+  }
+  look(bounds, wanted, neighbour, nullptr, counts);
+  for (std::size_t place = 0; place < bounds.active.size(); ++place) {
+    if (bounds.partner[place] == kNoNode) {
+      bounds.bound[place] = neighbour.least_inactive;
+    }
   }
   return bounds;
 }
 
 void RelaxedRecursion::renew(StepBounds& bounds, KeptJoins& kept, const StepPenalties& penalties,
-                             const StepBounds& neighbour, const StepPenalties& neighbour_penalties,
-                             double within, JoinFrontier::Counts& counts) {
-  const Ahead ahead(neighbour, neighbour_penalties);
-  bounds.inactive_bound = std::min(ahead.least_inactive, ahead.least);
-  kept.renew(ahead.nodes, ahead.values);
-  value_of_.resize(kernels_.cost.table().nodes.size(), kInfinity);
-  for (std::size_t i = 0; i < ahead.nodes.size(); ++i) {
-    value_of_[static_cast<std::size_t>(ahead.nodes[i])] = ahead.values[i];
-  }
+                             const NeighbourStep& neighbour, std::span<const double> before,
+                             double within, JoinFrontier::Counts& counts) const {
+  bounds.inactive_bound = std::min(neighbour.least_inactive, neighbour.least);
+  kept.renew(before, neighbour.frontier.values());
   const std::size_t size = bounds.active.size();
   const std::vector<double> own_penalties = penalties.of(bounds.active);
   std::vector<double> unsure(size); // by how much a look could raise the bound
-  std::vector<double> value(size);
+  double least_value = kInfinity;
   for (std::size_t i = 0; i < size; ++i) {
-    const KeptJoins::Least least = kept.least(i, value_of_);
-    const double by_kept = std::min(ahead.least_inactive, least.value);
+    const KeptJoins::Least least = kept.least(i, neighbour.frontier);
+    const double by_kept = std::min(neighbour.least_inactive, least.value);
     bounds.bound[i] = std::min(by_kept, least.rest);
     bounds.partner[i] = least.node;
     unsure[i] = by_kept - bounds.bound[i];
-    value[i] = own_penalties[i] + bounds.bound[i];
+    least_value = std::min(least_value, own_penalties[i] + bounds.bound[i]);
   }
-  const double most = (size == 0 ? 0.0 : std::ranges::min(value)) + within;
+  const double most = least_value + within;
   const double tight_enough = kTightEnough * kernels_.cost.weights().pnt;
   Wanted wanted;
   for (std::size_t i = 0; i < size; ++i) {
-    if (unsure[i] > tight_enough && value[i] <= most && value[i] < kInfinity) {
+    const double value = own_penalties[i] + bounds.bound[i];
+    if (unsure[i] > tight_enough && value <= most && value < kInfinity) {
       wanted.places.push_back(i);
     }
   }
-  if (!wanted.places.empty()) {
-    sort_by_ends(wanted.places, bounds.active);
-    for (const std::size_t place : wanted.places) {
-      wanted.known.push_back(kept.joins(place, value_of_, ahead.least_inactive));
-    }
-    look(bounds, wanted, ahead, {side_, kernels_, ahead.nodes, ahead.values}, &kept, counts);
+  sort_by_ends(wanted.places, bounds.active);
+  for (const std::size_t place : wanted.places) {
+    wanted.known.push_back(kept.joins(place, neighbour.frontier, neighbour.least_inactive));
   }
-  for (const NodeIndex node : ahead.nodes) {
-    value_of_[static_cast<std::size_t>(node)] = kInfinity;
-  }
+  look(bounds, wanted, neighbour, &kept, counts);
 }
 
-void RelaxedRecursion::look(StepBounds& bounds, const Wanted& wanted, const Ahead& ahead,
-                            const JoinFrontier& frontier, KeptJoins* kept,
+void RelaxedRecursion::look(StepBounds& bounds, const Wanted& wanted,
+                            const NeighbourStep& neighbour, KeptJoins* kept,
                             JoinFrontier::Counts& counts) const {
-  const bool rough = std::max(bounds.active.size(), ahead.nodes.size()) > kManyNodes;
+  if (wanted.places.empty()) {
+    return;
+  }
+  const std::vector<NodeIndex>& ahead = neighbour.frontier.nodes();
+  const bool rough = std::max(bounds.active.size(), ahead.size()) > kManyNodes;
   if (!rough) {
     kernels_.ensure(bounds.active);
-    kernels_.ensure(ahead.nodes);
+    kernels_.ensure(ahead);
   }
   std::vector<NodeIndex> nodes;
   std::ranges::transform(wanted.places, std::back_inserter(nodes),
                          [&](std::size_t place) { return bounds.active[place]; });
-  frontier.bound_joins(
+  neighbour.frontier.bound_joins(
       {.nodes = nodes,
        .tightness = rough ? JoinFrontier::Tightness::rough : JoinFrontier::Tightness::tight,
        .limits = wanted.limits,
@@ -182,7 +189,7 @@ void RelaxedRecursion::look(StepBounds& bounds, const Wanted& wanted, const Ahea
       counts, [&](std::size_t i, NodeIndex, const JoinFrontier::LeastJoins& least) {
         const std::size_t place = wanted.places[i];
         const double found = std::min(least.value(), least.limit());
-        bounds.bound[place] = std::min(ahead.least_inactive, found);
+        bounds.bound[place] = std::min(neighbour.least_inactive, found);
         bounds.partner[place] = least.node();
         if (kept != nullptr) {
           kept->keep(place, least);
@@ -218,11 +225,11 @@ NodeIndex RelaxedRecursion::partner(NodeIndex node, const StepBounds& own,
   }
   const std::array<NodeIndex, 1> nodes = {node};
   NodeIndex nearest = kNoNode;
-  frontier(neighbour, neighbour_penalties)
-      .bound_joins({.nodes = nodes}, counts,
-                   [&](std::size_t, NodeIndex, const JoinFrontier::LeastJoins& least) {
-                     nearest = least.node();
-                   });
+  this->neighbour(neighbour, neighbour_penalties)
+      .frontier.bound_joins({.nodes = nodes}, counts,
+                            [&](std::size_t, NodeIndex, const JoinFrontier::LeastJoins& least) {
+                              nearest = least.node();
+                            });
   return nearest;
 }
 

@@ -40,40 +40,57 @@ struct StepBounds {
   }
 };
 
+// What the nodes of a step see of the neighbouring one: v(y) = penalty + bound of its nodes y.
+struct NeighbourStep {
+  void see(const StepBounds& bounds, const StepPenalties& penalties);
+
+  JoinFrontier frontier;       // the active nodes, by v; infinite until see() has been called
+  double least = 0.0;          // of those
+  double least_inactive = 0.0; // at most v of any other
+};
+
 // One step of the relaxed recursion: Algorithm 1 with bounds in the place of joins.
 //
-// With v(y) = penalty + bound of node y at the neighbouring step, any node x has at least the bound
-// min(v). The active nodes, those near the step's least penalty (StepPenalties::near), get better:
-// the least bound over joins with the active ones of the neighbouring step, tight where they are
-// few enough, or the least v of an inactive one where that is less.
+// Any node has at least the bound min(v) of its neighbours. The active nodes, those near the step's
+// least penalty (StepPenalties::near), get better: the least bound over joins with the active ones
+// of the neighbouring step, tight where they are few enough, or the least v of an inactive one
+// where that is less.
 class RelaxedRecursion {
 public:
   RelaxedRecursion(JoinKernels& kernels, JoinFrontier::Side side)
       : kernels_(kernels), side_(side) {}
 
-  // Bounds at the last step of the side.
+  // Bounds at the last step of the side, and of any before its neighbour is known: 0.
   StepBounds border(const StepPenalties& penalties) const;
 
-  // Bounds at a step, from those at its neighbour on the side.
-  // `kept` is filled for renew() where it is given. Nodes whose penalty + bound is more than
-  // `window` above about the least of the step get a bound that holds and is not tight.
-  StepBounds next(const StepPenalties& penalties, const StepBounds& neighbour,
-                  const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts,
-                  KeptJoins* kept = nullptr, double window = JoinFrontier::kInfinity) const;
+  NeighbourStep neighbour(const StepBounds& bounds, const StepPenalties& penalties) const;
 
-  // Has the bounds of the active nodes rise after those at the neighbouring step have risen, or
-  // nodes have been taken away there. Where the least join of a node may be none of those kept,
-  // they are looked for again if its penalty + bound is at most `within` above the step's least;
-  // other bounds hold, but need not be tight.
+  // Of each step, for see().
+  std::vector<NeighbourStep> neighbours(std::span<const StepBounds> steps) const;
+
+  // Gives the nodes of a step their bounds. Those whose penalty + bound is more than `window` above
+  // about the least of the step get one that holds and is not tight. `kept` is filled for renew()
+  // where it is given.
+  void bound(StepBounds& bounds, const StepPenalties& penalties, const NeighbourStep& neighbour,
+             JoinFrontier::Counts& counts, double window = JoinFrontier::kInfinity,
+             KeptJoins* kept = nullptr) const;
+
+  // border() with those bounds.
+  StepBounds next(const StepPenalties& penalties, const NeighbourStep& neighbour,
+                  JoinFrontier::Counts& counts) const;
+
+  // Has the bounds of the active nodes rise after the values of the neighbour's have: they were
+  // `before`. Where the least join of a node may be none of those kept, they are looked for again
+  // if its penalty + bound is at most `within` above the step's least; other bounds hold, but need
+  // not be tight.
   void renew(StepBounds& bounds, KeptJoins& kept, const StepPenalties& penalties,
-             const StepBounds& neighbour, const StepPenalties& neighbour_penalties, double within,
-             JoinFrontier::Counts& counts);
+             const NeighbourStep& neighbour, std::span<const double> before, double within,
+             JoinFrontier::Counts& counts) const;
 
-  // Bounds of these nodes (ascending) alone, from those of the neighbouring step; infinite for one
-  // whose bound is above its limit (as many as nodes).
+  // Bounds of these nodes (ascending) alone; infinite for one whose bound is above its limit (as
+  // many as nodes).
   StepBounds bounds_of(std::vector<NodeIndex> nodes, std::span<const double> limits,
-                       const StepBounds& neighbour, const StepPenalties& neighbour_penalties,
-                       JoinFrontier::Counts& counts) const;
+                       const NeighbourStep& neighbour, JoinFrontier::Counts& counts) const;
 
   // Whose join gave the bound of `node` in `own`, if that is known and not blocked; else the one of
   // the neighbour's active nodes with the least rough bound for a join with it.
@@ -81,17 +98,6 @@ public:
                     const StepPenalties& neighbour_penalties, JoinFrontier::Counts& counts) const;
 
 private:
-  // What next(), bounds_of() and renew() know of the neighbouring step.
-  struct Ahead {
-    Ahead(const StepBounds& neighbour, const StepPenalties& penalties);
-    std::span<const NodeIndex> nodes; // its active ones
-    std::vector<double> values;       // of these: penalty + bound
-    double least = 0.0;               // of the values
-    double least_inactive = 0.0;      // at most the value of any other
-  };
-
-  JoinFrontier frontier(const StepBounds& neighbour, const StepPenalties& penalties) const;
-
   // Which of the active nodes to look for joins of, by their places.
   struct Wanted {
     std::vector<std::size_t> places;
@@ -99,12 +105,8 @@ private:
     std::vector<double> limits;
     std::vector<JoinFrontier::LeastJoins> known;
   };
-  // `frontier`: of the active nodes ahead.
-  void look(StepBounds& bounds, const Wanted& wanted, const Ahead& ahead,
-            const JoinFrontier& frontier, KeptJoins* kept, JoinFrontier::Counts& counts) const;
-  // Of nodes none of which has been looked at; `kept` as in next().
-  static StepBounds unknown_bounds(std::vector<NodeIndex> active, const Ahead& ahead,
-                                   KeptJoins* kept);
+  void look(StepBounds& bounds, const Wanted& wanted, const NeighbourStep& neighbour,
+            KeptJoins* kept, JoinFrontier::Counts& counts) const;
   // Of all nodes, sorted by ends.
   std::vector<std::size_t> all_places(std::span<const NodeIndex> nodes) const;
   // Has places whose nodes' ends are alike stand near each other.
@@ -112,7 +114,6 @@ private:
 
   JoinKernels& kernels_;
   JoinFrontier::Side side_;
-  std::vector<double> value_of_; // what renew() keeps between calls: infinite for all nodes
 };
 
 } // namespace phonomime

@@ -46,7 +46,8 @@ public:
       } else if (t == 0) {
         so_far_.push_back(before.border(penalties_[t]));
       } else {
-        so_far_.push_back(before.next(penalties_[t], so_far_[t - 1], penalties_[t - 1], counts_));
+        so_far_.push_back(before.next(
+            penalties_[t], before.neighbour(so_far_[t - 1], penalties_[t - 1]), counts_));
       }
     }
     const bool is_last = pivot_ + 1 == penalties_.size();
@@ -54,9 +55,11 @@ public:
     if (!is_constrained(steps[pivot_])) {
       to_go_at_pivot_ = free_to_go_[pivot_];
     } else {
-      to_go_at_pivot_ = is_last ? after.border(penalties_[pivot_])
-                                : after.next(penalties_[pivot_], free_to_go_[pivot_ + 1],
-                                             penalties_[pivot_ + 1], counts_);
+      to_go_at_pivot_ =
+          is_last ? after.border(penalties_[pivot_])
+                  : after.next(penalties_[pivot_],
+                               after.neighbour(free_to_go_[pivot_ + 1], penalties_[pivot_ + 1]),
+                               counts_);
     }
   }
 
@@ -112,8 +115,9 @@ private:
     std::vector<double> limits;
     std::ranges::transform(nodes, std::back_inserter(limits),
                            [&](NodeIndex node) { return budget - before(node); });
-    StepBounds bounds = RelaxedRecursion(kernels_, JoinFrontier::Side::later)
-                            .bounds_of(std::move(nodes), limits, next, penalties_[t + 1], counts_);
+    const RelaxedRecursion after(kernels_, JoinFrontier::Side::later);
+    StepBounds bounds = after.bounds_of(std::move(nodes), limits,
+                                        after.neighbour(next, penalties_[t + 1]), counts_);
     bounds.active_penalty = kInfinity; // no other node can be within the budget
     bounds.inactive_bound = kInfinity;
     drop_beyond(budget, so_far, penalties, bounds);
@@ -167,16 +171,18 @@ void SearchSession::extend(std::size_t pivot, std::span<const StepPenalties> pen
   for (; to_go_valid_ > pivot; --to_go_valid_) {
     progress.update("search", 0, total);
     const std::size_t t = to_go_valid_ - 1;
-    to_go_[t] = t + 1 == free_steps_.size()
-                    ? after.border(penalties[t])
-                    : after.next(penalties[t], to_go_[t + 1], penalties[t + 1], counts);
+    to_go_[t] =
+        t + 1 == free_steps_.size()
+            ? after.border(penalties[t])
+            : after.next(penalties[t], after.neighbour(to_go_[t + 1], penalties[t + 1]), counts);
   }
   const RelaxedRecursion before(space_.kernels, JoinFrontier::Side::earlier);
   for (; so_far_valid_ <= pivot; ++so_far_valid_) {
     progress.update("search", 0, total);
     const std::size_t t = so_far_valid_;
     so_far_[t] = t == 0 ? before.border(penalties[t])
-                        : before.next(penalties[t], so_far_[t - 1], penalties[t - 1], counts);
+                        : before.next(penalties[t],
+                                      before.neighbour(so_far_[t - 1], penalties[t - 1]), counts);
   }
 }
 

@@ -177,7 +177,8 @@ double StreamingSearch::lower_bound() {
     const std::size_t t = bounded_steps_;
     const StepPenalties penalties = penalties_of(t);
     so_far_ = t == 0 ? recursion.border(penalties)
-                     : recursion.next(penalties, so_far_, penalties_of(t - 1), counts);
+                     : recursion.next(penalties, recursion.neighbour(so_far_, penalties_of(t - 1)),
+                                      counts);
     lower_bound_ = penalties.least_beyond(so_far_.active_penalty) + so_far_.inactive_bound;
     for (std::size_t i = 0; i < so_far_.active.size(); ++i) {
       lower_bound_ = std::min(lower_bound_, so_far_.bound[i] + penalties[so_far_.active[i]]);

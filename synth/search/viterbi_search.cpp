@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "synth/search/viterbi_search.h"
 
+#include "synth/search/bounds_to_go.h"
 #include "synth/search/state_lattice.h"
 #include "synth/search/thread_count.h"
 
@@ -14,71 +15,12 @@ namespace phonomime {
 
 namespace {
 
-// In PNT. A good path has no node whose cost, with all that follows, is much further above the
-// least of its step.
-constexpr double kWindow = 1.25;
-
-// In PNT. Active nodes that were the near ones go on to be as long as near reaches less further.
-constexpr double kStillNear = 0.5;
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // In PNT. Renewed bounds are made tight that far above the least of a step, then further, until
 // the best path costs at most `kReach` more than they say; rough joins at pauses leave some of it.
 constexpr std::array<double, 3> kWithin = {1.0, 2.0, kInfinity};
 constexpr double kReach = 1.25;
-
-// Bounds of all that follows each step, for one path after another.
-class BoundsToGo {
-public:
-  // `further`: whether renew() is to come.
-  BoundsToGo(JoinKernels& kernels, const Progress& progress, bool further)
-      : recursion_(kernels, JoinFrontier::Side::later), progress_(progress), further_(further),
-        near_enough_(kStillNear * kernels.cost.weights().pnt),
-        window_(kWindow * kernels.cost.weights().pnt) {}
-
-  void make(std::span<const StepPenalties> penalties, JoinFrontier::Counts& counts) {
-    steps_.assign(penalties.size(), {});
-    kept_.resize(further_ ? penalties.size() : 0);
-    for (std::size_t t = penalties.size(); t-- > 0;) {
-      make_step(t, penalties, counts);
-    }
-  }
-
-  // After nodes have been taken away, and none given back. `within`: RelaxedRecursion::renew().
-  void renew(std::span<const StepPenalties> penalties, double within,
-             JoinFrontier::Counts& counts) {
-    for (std::size_t t = penalties.size(); t-- > 0;) {
-      if (penalties[t].near() > steps_[t].active_penalty + near_enough_) {
-        make_step(t, penalties, counts);
-      } else if (t + 1 < penalties.size()) {
-        progress_.update("search", 0, static_cast<std::int64_t>(penalties.size()));
-        recursion_.renew(steps_[t], kept_[t], penalties[t], steps_[t + 1], penalties[t + 1], within,
-                         counts);
-      }
-    }
-  }
-
-  const std::vector<StepBounds>& steps() const { return steps_; }
-
-private:
-  void make_step(std::size_t t, std::span<const StepPenalties> penalties,
-                 JoinFrontier::Counts& counts) {
-    progress_.update("search", 0, static_cast<std::int64_t>(penalties.size()));
-    steps_[t] = t + 1 == penalties.size()
-                    ? recursion_.border(penalties[t])
-                    : recursion_.next(penalties[t], steps_[t + 1], penalties[t + 1], counts,
-                                      further_ ? &kept_[t] : nullptr, window_);
-  }
-
-  RelaxedRecursion recursion_;
-  const Progress& progress_;
-  bool further_;
-  double near_enough_;
-  double window_;
-  std::vector<StepBounds> steps_;
-  std::vector<KeptJoins> kept_; // per step, where further_
-};
 
 // What is known of the cost of the best path.
 struct CostRange {

@@ -76,6 +76,38 @@ TEST(JoinBounds, are_never_above_the_gaps_they_bound) {
   EXPECT_GT(loosest_floor, 0.9999);
 }
 
+TEST(JoinBounds, smoothing_in_single_precision_is_never_above_the_exact_one) {
+  double loosest = 1.0;
+  int cut_short = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    Draw draw(seed);
+    const MotionTable table = drawn_table(seed, draw);
+    const CostWeights weights = test::random_weights(draw);
+    const JoinCost cost(table, weights);
+    for (NodeIndex to = 0; to < table.node_count(); ++to) {
+      if (table.nodes[static_cast<std::size_t>(to)].predecessor == kNoNode) {
+        continue;
+      }
+      for (NodeIndex from = 0; from < table.node_count(); ++from) {
+        const double exact = cost.smoothing(from, to);
+        const double floor = cost.smoothing_floor(kInfinity, from, to);
+        ASSERT_GE(floor, 0.0);
+        ASSERT_LE(floor, exact) << seed << ": " << from << "," << to;
+        if (exact > 100.0) {
+          loosest = std::min(loosest, floor / exact);
+        }
+        const double limit = 2.0 * exact * draw.unit();
+        const double hasty = cost.smoothing_floor(limit, from, to);
+        ASSERT_LE(hasty, floor);
+        ASSERT_TRUE(hasty == floor || hasty > limit * (1.0 - 1e-4));
+        cut_short += hasty < floor ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(loosest, 0.999);
+  EXPECT_GT(cut_short, 100);
+}
+
 TEST(EndTree, shows_every_entry_that_may_be_within_the_limit) {
   for (std::uint64_t seed = 0; seed < 80; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -86,13 +118,21 @@ TEST(EndTree, shows_every_entry_that_may_be_within_the_limit) {
     kernels.ensure(all_nodes(table));
     const NodeEnd which = draw.chance(0.5) ? NodeEnd::first : NodeEnd::last;
     const NodeEnd other = which == NodeEnd::first ? NodeEnd::last : NodeEnd::first;
-    std::vector<EndTree::Entry> entries;
+    std::vector<NodeIndex> entries;
     for (const NodeIndex node : kernels.sketch.order(which)) {
       if (draw.chance(0.8)) {
-        entries.push_back({node, 1000.0 * draw.unit()});
+        entries.push_back(node);
       }
     }
-    const EndTree tree(kernels.sketch, table, which, entries);
+    EndTree tree(kernels.sketch, table, which, entries);
+    std::vector<double> values;
+    for (int time = 0; time < 2; ++time) { // other values replace the first
+      values.clear();
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        values.push_back(draw.chance(0.1) ? kInfinity : 1000.0 * draw.unit());
+      }
+      tree.set_values(values);
+    }
     for (NodeIndex node = 0; node < table.node_count(); ++node) {
       const std::int32_t viseme = join_viseme(table, other, node);
       const double limit = 3000.0 * draw.unit();
@@ -102,16 +142,15 @@ TEST(EndTree, shows_every_entry_that_may_be_within_the_limit) {
           kernels.sketch.end(other, node), viseme, weights.pnt, [&] { return limit; },
           [&](std::size_t place, std::int32_t entry_viseme, double bound) {
             ++shown[place];
-            EXPECT_EQ(entry_viseme, join_viseme(table, which, entries[place].node));
+            EXPECT_EQ(entry_viseme, join_viseme(table, which, entries[place]));
             EXPECT_LE(bound, limit);
             bounds[place] = bound;
           });
       for (std::size_t i = 0; i < entries.size(); ++i) {
-        const NodeIndex from = which == NodeEnd::last ? entries[i].node : node;
-        const NodeIndex to = which == NodeEnd::last ? node : entries[i].node;
-        const double penalty =
-            join_viseme(table, which, entries[i].node) == viseme ? 0.0 : weights.pnt;
-        const double exact = entries[i].value + (kernels.cost.gaps(from, to) + penalty);
+        const NodeIndex from = which == NodeEnd::last ? entries[i] : node;
+        const NodeIndex to = which == NodeEnd::last ? node : entries[i];
+        const double penalty = join_viseme(table, which, entries[i]) == viseme ? 0.0 : weights.pnt;
+        const double exact = values[i] + (kernels.cost.gaps(from, to) + penalty);
         ASSERT_LE(bounds[i], exact);
         ASSERT_LE(shown[i], 1);
         ASSERT_TRUE(shown[i] == 1 || exact > limit) << node << " and entry " << i;
@@ -137,18 +176,16 @@ TEST(EndTree, looks_at_few_boxes_where_the_limit_is_small) {
   shape.dimensions = 6;
   const MotionTable table = test::random_table(shape, draw);
   const JoinKernels kernels(table, {1.0, 0.2, 20.0, 0.4, 10.0, 10.0, 500.0});
-  std::vector<EndTree::Entry> entries;
-  for (const NodeIndex node : kernels.sketch.order(NodeEnd::last)) {
-    entries.push_back({node, 0.0});
-  }
-  const EndTree tree(kernels.sketch, table, NodeEnd::last, entries);
+  const std::vector<NodeIndex>& entries = kernels.sketch.order(NodeEnd::last);
+  EndTree tree(kernels.sketch, table, NodeEnd::last, entries);
+  tree.set_values(std::vector<double>(entries.size(), 0.0));
   double best = std::numeric_limits<double>::infinity();
   const float* end = kernels.sketch.end(NodeEnd::first, 100);
   const std::int64_t looked_at = tree.search(
       end, join_viseme(table, NodeEnd::first, 100), 500.0, [&] { return best; },
       [&](std::size_t place, std::int32_t, double) {
         best = std::min(best, static_cast<double>(city_block(
-                                  end, kernels.sketch.end(NodeEnd::last, entries[place].node))));
+                                  end, kernels.sketch.end(NodeEnd::last, entries[place]))));
       });
   EXPECT_LT(looked_at, static_cast<std::int64_t>(entries.size()) / 2);
 }

@@ -17,69 +17,61 @@ using test::Draw;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kNodes = 20;
-constexpr int kTable = 60;
 
-// A step of 20 nodes before one of up to 60, whose joins cost anything.
+// A step of 20 nodes before one of many, whose joins cost anything.
 class Steps {
 public:
-  explicit Steps(Draw& draw) : draw_(draw), value_of_(kTable, kInfinity) {
-    for (std::size_t i = 0; i < kNodes * kTable; ++i) {
-      joins_.push_back(draw.chance(0.1) ? 0.0 : 5.0 * draw.unit());
+  explicit Steps(std::uint64_t seed)
+      : draw_(seed), table_(random_table(draw_)), kernels_(table_, test::random_weights(draw_)),
+        frontier_(JoinFrontier::Side::later, kernels_, test::all_nodes(table_)) {
+    const std::size_t size = frontier_.nodes().size();
+    for (std::size_t i = 0; i < kNodes * size; ++i) {
+      joins_.push_back(draw_.chance(0.1) ? 0.0 : 5.0 * draw_.unit());
     }
-    for (NodeIndex node = 0; node < kTable; ++node) {
-      if (draw.chance(0.7)) {
-        add(node);
-      }
+    std::vector<double> values(size);
+    for (double& value : values) {
+      value = draw_.chance(0.2) ? kInfinity : 4.0 * draw_.unit();
     }
+    frontier_.set_values(values);
   }
 
-  // Some values rise, much or little; some nodes are taken away; some come in.
+  // Some values rise, much or little; some nodes are taken away.
   void change() {
-    for (const NodeIndex node : neighbours_) {
-      double& value = value_of_[static_cast<std::size_t>(node)];
-      value += draw_.chance(0.1) ? 0.0 : 1.0 + draw_.unit();
+    std::vector<double> values = frontier_.values();
+    const double share = draw_.unit();
+    for (double& value : values) {
+      value += draw_.chance(0.1) ? 0.0 : share + draw_.unit() * draw_.unit();
       value = draw_.chance(0.1) ? kInfinity : value;
     }
-    const auto node = static_cast<NodeIndex>(draw_.below(kTable));
-    if (draw_.chance(0.3) && !std::ranges::binary_search(neighbours_, node)) {
-      add(node);
-    }
+    frontier_.set_values(values);
   }
 
   // All that is to be known of a node: its least joins, by looking at each.
   LeastJoins look(std::size_t place, std::size_t most) const {
     LeastJoins least(most);
-    for (const NodeIndex node : neighbours_) {
-      if (value_of_[static_cast<std::size_t>(node)] < kInfinity) {
-        least.consider({node, value_of_[static_cast<std::size_t>(node)]}, join(place, node));
+    for (std::size_t i = 0; i < frontier_.nodes().size(); ++i) {
+      if (frontier_.values()[i] < kInfinity) {
+        least.consider(frontier_.candidate(i), joins_[place * frontier_.nodes().size() + i]);
       }
     }
     return least;
   }
 
-  const std::vector<NodeIndex>& neighbours() const { return neighbours_; }
-  std::vector<double> values() const {
-    std::vector<double> values;
-    for (const NodeIndex node : neighbours_) {
-      values.push_back(value_of_[static_cast<std::size_t>(node)]);
-    }
-    return values;
-  }
-  const std::vector<double>& value_of() const { return value_of_; }
+  const JoinFrontier& frontier() const { return frontier_; }
+  bool chance(double p) { return draw_.chance(p); }
 
 private:
-  double join(std::size_t place, NodeIndex node) const {
-    return joins_[place * kTable + static_cast<std::size_t>(node)];
-  }
-  void add(NodeIndex node) {
-    neighbours_.insert(std::ranges::lower_bound(neighbours_, node), node);
-    value_of_[static_cast<std::size_t>(node)] = 4.0 * draw_.unit();
+  static MotionTable random_table(Draw& draw) {
+    test::TableShape shape;
+    shape.sentences = 8 + draw.below(40); // up to some 200 nodes
+    return test::random_table(shape, draw);
   }
 
-  Draw& draw_;
-  std::vector<double> joins_; // kNodes by kTable
-  std::vector<NodeIndex> neighbours_;
-  std::vector<double> value_of_;
+  Draw draw_;
+  MotionTable table_;
+  JoinKernels kernels_;
+  JoinFrontier frontier_;
+  std::vector<double> joins_; // kNodes by as many as candidates
 };
 
 TEST(KeptJoins, never_say_more_than_a_look_at_every_neighbour) {
@@ -87,19 +79,19 @@ TEST(KeptJoins, never_say_more_than_a_look_at_every_neighbour) {
   int all = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    Draw draw(seed);
-    Steps steps(draw);
+    Steps steps(seed);
     KeptJoins kept;
-    kept.reset(kNodes, steps.neighbours(), steps.values());
+    kept.reset(kNodes);
     for (std::size_t place = 0; place < kNodes; ++place) {
       kept.keep(place, steps.look(place, 1 + place % LeastJoins::kMost));
     }
     for (int change = 0; change < 6; ++change) {
+      const std::vector<double> before = steps.frontier().values();
       steps.change();
-      kept.renew(steps.neighbours(), steps.values());
+      kept.renew(before, steps.frontier().values());
       for (std::size_t place = 0; place < kNodes; ++place) {
         const LeastJoins judged = steps.look(place, 1);
-        const KeptJoins::Least least = kept.least(place, steps.value_of());
+        const KeptJoins::Least least = kept.least(place, steps.frontier());
         const double tolerance = 1e-6 * (1.0 + least.rest); // joins are kept as floats
         if (judged.joins().empty()) {
           EXPECT_EQ(least.value, kInfinity);
@@ -111,13 +103,13 @@ TEST(KeptJoins, never_say_more_than_a_look_at_every_neighbour) {
         if (least.value <= least.rest) {
           ++sure;
           EXPECT_NEAR(least.value, judged.value(), 1e-6 * judged.value());
-        } else if (draw.chance(0.5)) { // look again, from what is known
-          LeastJoins again = kept.joins(place, steps.value_of(), kInfinity);
+        } else if (steps.chance(0.5)) { // look again, from what is known
+          const LeastJoins again = kept.joins(place, steps.frontier(), kInfinity);
           for (const LeastJoins::Join& join : again.joins()) {
             EXPECT_LT(join.value, kInfinity);
           }
           kept.keep(place, steps.look(place, LeastJoins::kMost));
-          EXPECT_NEAR(kept.least(place, steps.value_of()).value, judged.value(),
+          EXPECT_NEAR(kept.least(place, steps.frontier()).value, judged.value(),
                       1e-6 * judged.value());
         }
       }

@@ -30,17 +30,18 @@ TEST(RelaxedRecursion, has_looser_bounds_only_beyond_the_window) {
     const RelaxedRecursion recursion(space.kernels, draw.chance(0.5) ? JoinFrontier::Side::later
                                                                      : JoinFrontier::Side::earlier);
     JoinFrontier::Counts counts;
-    const StepBounds neighbour =
-        recursion.next(penalties[1], recursion.border(penalties[2]), penalties[2], counts);
-    const StepBounds all = recursion.next(penalties[0], neighbour, penalties[1], counts);
+    const NeighbourStep last = recursion.neighbour(recursion.border(penalties[2]), penalties[2]);
+    const NeighbourStep neighbour =
+        recursion.neighbour(recursion.next(penalties[1], last, counts), penalties[1]);
+    const StepBounds all = recursion.next(penalties[0], neighbour, counts);
     std::vector<double> values;
     for (std::size_t i = 0; i < all.active.size(); ++i) {
       values.push_back(penalties[0][all.active[i]] + all.bound[i]);
     }
     const auto [least, largest] = std::ranges::minmax(values);
     const double window = draw.unit() * (largest - least);
-    const StepBounds within =
-        recursion.next(penalties[0], neighbour, penalties[1], counts, nullptr, window);
+    StepBounds within = recursion.border(penalties[0]);
+    recursion.bound(within, penalties[0], neighbour, counts, window);
     ASSERT_EQ(within.active, all.active);
     EXPECT_EQ(within.inactive_bound, all.inactive_bound);
     for (std::size_t i = 0; i < all.active.size(); ++i) {

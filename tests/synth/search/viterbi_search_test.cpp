@@ -271,7 +271,8 @@ TEST(ViterbiSearch, passes_over_states_find_the_optimum_up_to_their_bound_and_no
     for (std::size_t t = steps.size(); t-- > 0;) {
       to_go[t] = t + 1 == steps.size()
                      ? recursion.border(penalties[t])
-                     : recursion.next(penalties[t], to_go[t + 1], penalties[t + 1], counts);
+                     : recursion.next(penalties[t],
+                                      recursion.neighbour(to_go[t + 1], penalties[t + 1]), counts);
     }
     const auto found = [&](double upper_bound) {
       return exact_search(space, steps, penalties, upper_bound, [&](double) { return to_go; }, {},
