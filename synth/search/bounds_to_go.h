@@ -5,6 +5,8 @@
 #include "synth/search/kept_joins.h"
 #include "synth/search/relaxed_bounds.h"
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,16 +23,26 @@ public:
   // After nodes have been taken away, and none given back. `within`: RelaxedRecursion::renew().
   void renew(std::span<const StepPenalties> penalties, double within, JoinFrontier::Counts& counts);
 
-  const std::vector<StepBounds>& steps() const { return steps_; }
+  const std::vector<StepBounds>& steps() const { return bounds_; }
 
 private:
+  // A step, as the one before it sees it.
+  struct Seen {
+    std::optional<NeighbourStep> step; // between visits only where it is kept
+    bool kept = false;
+    std::vector<double> values; // of the active nodes, after a visit
+  };
+  void keep_where_there_is_room();
+  void see(std::size_t t, const StepPenalties& penalties);
+  void leave(std::size_t t);
+
   RelaxedRecursion recursion_;
   const Progress& progress_;
   bool further_;
   double pnt_;
-  std::vector<StepBounds> steps_;
-  std::vector<NeighbourStep> seen_; // each step, as the one before it sees it
-  std::vector<KeptJoins> kept_;     // per step, where further_
+  std::vector<StepBounds> bounds_;
+  std::vector<Seen> seen_;
+  std::vector<KeptJoins> kept_; // per step, where further_
 };
 
 } // namespace phonomime

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 namespace phonomime {
@@ -54,24 +53,15 @@ StepBounds RelaxedRecursion::border(const StepPenalties& penalties) const {
   return bounds;
 }
 
-NeighbourStep RelaxedRecursion::neighbour(const StepBounds& bounds,
-                                          const StepPenalties& penalties) const {
-  NeighbourStep neighbour{.frontier = {side_, kernels_, bounds.active}};
-  neighbour.see(bounds, penalties);
-  return neighbour;
+NeighbourStep RelaxedRecursion::neighbour(const StepBounds& bounds) const {
+  return {.frontier = {side_, kernels_, bounds.active}};
 }
 
-std::vector<NeighbourStep> RelaxedRecursion::neighbours(std::span<const StepBounds> steps) const {
-  std::vector<std::optional<JoinFrontier>> frontiers(steps.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t t = 0; t < steps.size(); ++t) {
-    frontiers[t].emplace(side_, kernels_, steps[t].active);
-  }
-  std::vector<NeighbourStep> neighbours;
-  for (std::optional<JoinFrontier>& frontier : frontiers) {
-    neighbours.push_back({.frontier = std::move(*frontier)});
-  }
-  return neighbours;
+NeighbourStep RelaxedRecursion::neighbour(const StepBounds& bounds,
+                                          const StepPenalties& penalties) const {
+  NeighbourStep neighbour = this->neighbour(bounds);
+  neighbour.see(bounds, penalties);
+  return neighbour;
 }
 
 StepBounds RelaxedRecursion::next(const StepPenalties& penalties, const NeighbourStep& neighbour,

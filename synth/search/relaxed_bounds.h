@@ -64,9 +64,8 @@ public:
   StepBounds border(const StepPenalties& penalties) const;
 
   NeighbourStep neighbour(const StepBounds& bounds, const StepPenalties& penalties) const;
-
-  // Of each step, for see().
-  std::vector<NeighbourStep> neighbours(std::span<const StepBounds> steps) const;
+  // For see() of those bounds. Thread-safe.
+  NeighbourStep neighbour(const StepBounds& bounds) const;
 
   // Gives the nodes of a step their bounds. Those whose penalty + bound is more than `window` above
   // about the least of the step get one that holds and is not tight. `kept` is filled for renew()
