@@ -14,10 +14,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Where more nodes than this are active (inner pauses), full poses for all of them would cost more
-// than they save.
-constexpr std::size_t kManyNodes = 4096;
-
 // In PNT. What a look at joins could raise a bound by is not worth it below.
 constexpr double kTightEnough = 0.03;
 
@@ -163,7 +159,7 @@ void RelaxedRecursion::look(StepBounds& bounds, const Wanted& wanted,
     return;
   }
   const std::vector<NodeIndex>& ahead = neighbour.frontier.nodes();
-  const bool rough = std::max(bounds.active.size(), ahead.size()) > kManyNodes;
+  const bool rough = std::max(bounds.active.size(), ahead.size()) > many_;
   if (!rough) {
     kernels_.ensure(bounds.active);
     kernels_.ensure(ahead);

@@ -5,6 +5,7 @@
 #include "synth/search/kept_joins.h"
 #include "synth/search/step_costs.h"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -57,8 +58,10 @@ struct NeighbourStep {
 // where that is less.
 class RelaxedRecursion {
 public:
-  RelaxedRecursion(JoinKernels& kernels, JoinFrontier::Side side)
-      : kernels_(kernels), side_(side) {}
+  // Where more than `many` nodes are active at a step, bounds of joins with them are rough: full
+  // poses for all of them would cost more than they save.
+  RelaxedRecursion(JoinKernels& kernels, JoinFrontier::Side side, std::size_t many = 4096)
+      : kernels_(kernels), side_(side), many_(many) {}
 
   // Bounds at the last step of the side, and of any before its neighbour is known: 0.
   StepBounds border(const StepPenalties& penalties) const;
@@ -113,6 +116,7 @@ private:
 
   JoinKernels& kernels_;
   JoinFrontier::Side side_;
+  std::size_t many_;
 };
 
 } // namespace phonomime

@@ -15,6 +15,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// As RelaxedRecursion has it. Bounds are kept for the edits to come, so that at an inner pause too
+// they may cost more than they save at once.
+constexpr std::size_t kMany = 32768;
+
 bool is_constrained(const SearchStep& step) {
   return !step.allowed.empty() || !step.avoided.empty();
 }
@@ -39,7 +43,7 @@ public:
                 std::span<const SearchStep> steps, std::size_t pivot, JoinFrontier::Counts& counts)
       : kernels_(space.kernels), penalties_(penalties), free_so_far_(free_so_far),
         free_to_go_(free_to_go), pivot_(pivot), counts_(counts) {
-    const RelaxedRecursion before(kernels_, JoinFrontier::Side::earlier);
+    const RelaxedRecursion before(kernels_, JoinFrontier::Side::earlier, kMany);
     for (std::size_t t = 0; t <= pivot_; ++t) {
       if (!is_constrained(steps[t])) {
         so_far_.push_back(free_so_far[t]);
@@ -51,7 +55,7 @@ public:
       }
     }
     const bool is_last = pivot_ + 1 == penalties_.size();
-    const RelaxedRecursion after(kernels_, JoinFrontier::Side::later);
+    const RelaxedRecursion after(kernels_, JoinFrontier::Side::later, kMany);
     if (!is_constrained(steps[pivot_])) {
       to_go_at_pivot_ = free_to_go_[pivot_];
     } else {
@@ -70,11 +74,11 @@ public:
     path[pivot_] = *std::ranges::min_element(at.active, {}, [&](NodeIndex node) {
       return so_far_[pivot_][node] + penalties_[pivot_][node] + at[node];
     });
-    const RelaxedRecursion before(kernels_, JoinFrontier::Side::earlier);
+    const RelaxedRecursion before(kernels_, JoinFrontier::Side::earlier, kMany);
     for (std::size_t t = pivot_; t-- > 0;) {
       path[t] = before.partner(path[t + 1], so_far_[t + 1], so_far_[t], penalties_[t], counts_);
     }
-    const RelaxedRecursion after(kernels_, JoinFrontier::Side::later);
+    const RelaxedRecursion after(kernels_, JoinFrontier::Side::later, kMany);
     for (std::size_t t = pivot_ + 1; t < path.size(); ++t) {
       path[t] = after.partner(path[t - 1], t - 1 == pivot_ ? at : free_to_go_[t - 1],
                               free_to_go_[t], penalties_[t], counts_);
@@ -115,7 +119,7 @@ private:
     std::vector<double> limits;
     std::ranges::transform(nodes, std::back_inserter(limits),
                            [&](NodeIndex node) { return budget - before(node); });
-    const RelaxedRecursion after(kernels_, JoinFrontier::Side::later);
+    const RelaxedRecursion after(kernels_, JoinFrontier::Side::later, kMany);
     StepBounds bounds = after.bounds_of(std::move(nodes), limits,
                                         after.neighbour(next, penalties_[t + 1]), counts_);
     bounds.active_penalty = kInfinity; // no other node can be within the budget
@@ -167,7 +171,7 @@ void SearchSession::take_over(std::span<const SearchStep> steps) {
 void SearchSession::extend(std::size_t pivot, std::span<const StepPenalties> penalties,
                            const Progress& progress, JoinFrontier::Counts& counts) {
   const auto total = static_cast<std::int64_t>(free_steps_.size());
-  const RelaxedRecursion after(space_.kernels, JoinFrontier::Side::later);
+  const RelaxedRecursion after(space_.kernels, JoinFrontier::Side::later, kMany);
   for (; to_go_valid_ > pivot; --to_go_valid_) {
     progress.update("search", 0, total);
     const std::size_t t = to_go_valid_ - 1;
@@ -176,7 +180,7 @@ void SearchSession::extend(std::size_t pivot, std::span<const StepPenalties> pen
             ? after.border(penalties[t])
             : after.next(penalties[t], after.neighbour(to_go_[t + 1], penalties[t + 1]), counts);
   }
-  const RelaxedRecursion before(space_.kernels, JoinFrontier::Side::earlier);
+  const RelaxedRecursion before(space_.kernels, JoinFrontier::Side::earlier, kMany);
   for (; so_far_valid_ <= pivot; ++so_far_valid_) {
     progress.update("search", 0, total);
     const std::size_t t = so_far_valid_;
